@@ -1,0 +1,52 @@
+// Every file and folder name of a campaign, built and parsed in one place (docs/formats/campaign.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace seedframe {
+
+/// The folder of one campaign. Frames are numbered from 0 over the whole campaign.
+class CampaignFiles {
+ public:
+  explicit CampaignFiles(std::filesystem::path root) : root_(std::move(root)) {}
+
+  const std::filesystem::path& root() const { return root_; }
+  std::filesystem::path config() const { return root_ / "campaign.yaml"; }
+  std::filesystem::path provenance() const { return root_ / "provenance.json"; }
+  std::filesystem::path store() const { return root_ / "campaign.sqlite"; }
+  std::filesystem::path lock() const { return root_ / "campaign.lock"; }
+  std::filesystem::path frames() const { return root_ / "frames"; }
+  std::filesystem::path logs() const { return root_ / "logs"; }
+  std::filesystem::path worker_log(int worker) const;
+  std::filesystem::path exports() const { return root_ / "exports"; }
+  /// Scratch space: mesh buffers for the workers and attempts under way. Gone when nothing runs.
+  std::filesystem::path work() const { return root_ / "work"; }
+  std::filesystem::path mesh_buffer(const std::string& sha256) const;
+  std::filesystem::path attempt(std::int64_t frame, int attempt) const;
+
+  /// frames/<thousands>/<index>, for example frames/012/012345.
+  std::filesystem::path frame(std::int64_t frame) const;
+
+ private:
+  std::filesystem::path root_;
+};
+
+/// Names inside the folder of one frame.
+namespace frame_files {
+inline constexpr const char* kSpec = "frame.json";
+inline constexpr const char* kPasses = "passes.exr";
+inline constexpr const char* kImage = "image.png";
+inline constexpr const char* kInstances = "instances.png";
+inline constexpr const char* kSemantic = "semantic.png";
+inline constexpr const char* kDepth = "depth.exr";
+inline constexpr const char* kNormal = "normal.exr";
+inline constexpr const char* kLabels = "labels.json";
+inline constexpr const char* kManifest = "manifest.json";
+}  // namespace frame_files
+
+/// The stem that a frame has in every export: "000042".
+std::string frame_stem(std::int64_t frame);
+
+}  // namespace seedframe

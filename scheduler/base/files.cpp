@@ -1,0 +1,97 @@
+#include "base/files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace seedframe {
+namespace fs = std::filesystem;
+namespace {
+
+tl::unexpected<Error> system_failure(const char* action, const fs::path& path, int error) {
+  return fail(ErrorKind::kEnvironment, "cannot {} {}: {}", action, path.string(),
+              std::strerror(error));
+}
+
+}  // namespace
+
+Result<std::string> read_file(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    return fail(ErrorKind::kEnvironment, "cannot read {}: it is a folder", path.string());
+  }
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return system_failure("read", path, errno == 0 ? EIO : errno);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  if (stream.bad()) return system_failure("read", path, EIO);
+  return std::move(bytes).str();
+}
+
+Status sync_path(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return system_failure("open", path, errno);
+  const int result = ::fsync(descriptor);
+  const int error = errno;
+  ::close(descriptor);
+  if (result != 0) return system_failure("sync", path, error);
+  return {};
+}
+
+Status write_file(const fs::path& path, std::string_view bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) return system_failure("write", path, errno);
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int error = errno;
+      ::close(descriptor);
+      return system_failure("write", path, error);
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  const int synced = ::fsync(descriptor);
+  const int error = errno;
+  ::close(descriptor);
+  if (synced != 0) return system_failure("sync", path, error);
+  return {};
+}
+
+Status write_file_atomically(const fs::path& path, std::string_view bytes) {
+  fs::path temporary = path;
+  temporary += ".tmp";
+  if (Status written = write_file(temporary, bytes); !written) return written;
+  if (::rename(temporary.c_str(), path.c_str()) != 0) return system_failure("replace", path, errno);
+  return sync_path(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+Status commit_folder(const fs::path& temporary, const fs::path& final) {
+  if (Status synced = sync_path(temporary); !synced) return synced;
+  if (::rename(temporary.c_str(), final.c_str()) != 0) {
+    if (errno != ENOTEMPTY && errno != EEXIST) return system_failure("rename to", final, errno);
+    std::error_code error;
+    fs::remove_all(final, error);
+    if (::rename(temporary.c_str(), final.c_str()) != 0) {
+      return system_failure("rename to", final, errno);
+    }
+  }
+  return sync_path(final.parent_path());
+}
+
+Status make_folders(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) {
+    return fail(ErrorKind::kEnvironment, "cannot make the folder {}: {}", path.string(),
+                error.message());
+  }
+  return {};
+}
+
+}  // namespace seedframe

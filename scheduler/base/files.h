@@ -1,0 +1,30 @@
+// Reading whole files, and writing files and folders so that a crash leaves the old one or the new one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace seedframe {
+
+Result<std::string> read_file(const std::filesystem::path& path);
+
+/// Writes `bytes` to `path` and forces them to the disk. Not atomic: for files inside a folder that
+/// is itself renamed into place.
+Status write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Writes beside `path`, forces to disk and renames over it.
+Status write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// Forces a file's contents, or a folder's entries, to the disk.
+Status sync_path(const std::filesystem::path& path);
+
+/// Renames a finished folder to its final name and forces the rename to the disk.
+/// A folder that already has the final name is replaced.
+Status commit_folder(const std::filesystem::path& temporary, const std::filesystem::path& final);
+
+Status make_folders(const std::filesystem::path& path);
+
+}  // namespace seedframe

@@ -1,0 +1,59 @@
+#include "base/nearest_name.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace seedframe {
+namespace {
+
+// Optimal string alignment: Levenshtein's recurrence with swaps of neighbours.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) previous[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    current[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitution = previous[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      current[j] = std::min({previous[j] + 1, current[j - 1] + 1, substitution});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        current[j] = std::min(current[j], before[j - 2] + 1);
+      }
+    }
+    before.swap(previous);
+    previous.swap(current);
+  }
+  return previous[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+  constexpr std::size_t kLongestName = 64;
+  if (name.size() > kLongestName) return {};
+  std::string best;
+  std::size_t best_distance = 0;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (best.empty() || distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  const std::size_t allowed = std::max<std::size_t>(1, best.size() / 3);
+  return best_distance <= allowed ? best : std::string();
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_name(name, candidates);
+  if (!nearest.empty()) return fmt::format(" (did you mean '{}'?)", nearest);
+  if (candidates.empty()) return {};
+  constexpr std::size_t kMostListed = 24;
+  const std::size_t shown = std::min(candidates.size(), kMostListed);
+  std::string list = fmt::format(
+      "{}", fmt::join(candidates.begin(), candidates.begin() + static_cast<long>(shown), ", "));
+  if (shown < candidates.size()) list += ", …";
+  return fmt::format(" (there are: {})", list);
+}
+
+}  // namespace seedframe

@@ -1,0 +1,38 @@
+// Reads the multilayer EXR that a worker wrote, and trusts nothing in it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "image/image.h"
+
+namespace seedframe {
+
+/// What the file must hold to be the frame that was asked for.
+struct PassExpectation {
+  int width = 0;
+  int height = 0;
+  bool depth = false;
+  bool normal = false;
+  int max_instance_id = 0;  ///< a larger index is an error
+};
+
+struct FramePasses {
+  Image<float> combined;             ///< RGBA, scene-linear Rec.709, premultiplied alpha
+  Image<std::uint16_t> instance_ids; ///< 0 is background
+  std::optional<Image<float>> depth; ///< planar, metres along the viewing axis
+  std::optional<Image<float>> normal;///< x, y, z in the camera's frame
+  /// SHA-256 of each pass's pixels by name ("combined", "index", "depth", "normal"): see pixel_hash.h.
+  std::map<std::string, std::string> pixel_hashes;
+};
+
+/// kRender errors: a missing or cut file, a missing layer, another size, NaN or infinite values
+/// (Depth may be the renderer's background value), an index that is fractional, negative or above
+/// max_instance_id. Each names the file, the pass and the first bad pixel.
+Result<FramePasses> read_passes(const std::filesystem::path& path, const PassExpectation& expected);
+
+}  // namespace seedframe
