@@ -1,0 +1,60 @@
+// The messages between scheduler and worker, docs/formats/worker-protocol.md.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "base/error.h"
+#include "render/frame_job.h"
+
+namespace seedframe {
+
+inline constexpr int kWorkerProtocol = 1;
+
+/// Everything a worker needs to render one frame.
+struct RenderRequest {
+  std::string spec;                                       ///< the frame spec as one line of JSON
+  std::filesystem::path output;                           ///< EXR to write; its folder exists
+  std::map<std::string, std::filesystem::path> meshes;    ///< SHA-256 -> mesh buffer
+  std::map<std::string, std::filesystem::path> textures;  ///< SHA-256 -> image file
+};
+
+/// Where the time of a rendered frame went, in seconds.
+struct RenderTimings {
+  double build_s = 0.0;   ///< in the worker: from the message to a complete scene
+  double render_s = 0.0;  ///< in the worker: Cycles, and writing the EXR
+  double total_s = 0.0;   ///< in the scheduler: from sending the request to its answer
+};
+
+/// The worker can take frames. What it says of itself belongs in the provenance.
+struct ReadyMessage {
+  int protocol = 0;
+  std::string blender;      ///< "3.4.1"
+  std::string build;        ///< Blender's build hash
+  std::string ocio_config;  ///< path of the colour configuration that Blender uses
+  std::string cpu;          ///< the CPU kernel that Cycles uses: "avx2", "avx", "sse41", …
+};
+
+struct DoneMessage {
+  FrameJob job;
+  double build_s = 0.0;
+  double render_s = 0.0;
+};
+
+struct FailedMessage {
+  FrameJob job;
+  std::string error;
+};
+
+using WorkerMessage = std::variant<ReadyMessage, DoneMessage, FailedMessage>;
+
+/// One line, with its line feed.
+std::string encode_render_message(const FrameJob& job, const RenderRequest& request);
+
+/// Reads one line of a worker; kRender errors quote the beginning of what came instead.
+Result<WorkerMessage> parse_worker_message(std::string_view line);
+
+}  // namespace seedframe

@@ -1,0 +1,95 @@
+// Keeps Blender workers busy with frames, and survives whatever they do.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "render/frame_job.h"
+#include "render/message.h"
+
+namespace seedframe {
+
+struct PoolOptions {
+  std::filesystem::path blender;  ///< absolute: BlenderInfo::program
+  std::filesystem::path scripts;  ///< the folder blender_scripts/
+  /// The log of each worker; its folder exists. CampaignFiles::worker_log fits.
+  std::function<std::filesystem::path(int worker)> log_path;
+
+  int workers = 1;
+  int threads = 1;  ///< of each worker
+  int max_attempts = 3;
+  std::chrono::milliseconds frame_timeout = std::chrono::seconds(600);
+  std::chrono::milliseconds start_timeout = std::chrono::seconds(120);
+  /// A worker is replaced after so many frames; 0: never.
+  int frames_per_worker = 0;
+  /// No new frame starts while so many wait for their verdict, which bounds the disk they take.
+  int max_unjudged = 64;
+
+  /// Set in the workers' environment on top of ours, for example OCIO, or CYCLES_CPU_NO_AVX2 to pin
+  /// the kernel. Of ours, PYTHON*, BLENDER_*, CYCLES_* and OCIO are not handed on.
+  std::map<std::string, std::string> environment;
+};
+
+/// What the pool asks and tells. All calls come from the thread that is in WorkerPool::run and must
+/// return at once. For one job the order is: request, started, then rendered or attempt_failed;
+/// after rendered the job is open until post_verdict.
+class RenderClient {
+ public:
+  virtual ~RenderClient() = default;
+
+  /// May be called some time before started, and again for the same job if that never came. A
+  /// kEnvironment error ends the run; any other fails the frame for good.
+  virtual Result<RenderRequest> request(const FrameJob& job) = 0;
+  virtual void started(const FrameJob& job, int worker) = 0;
+  /// The worker says that the file is written. Hand it to post-processing, which must answer with
+  /// post_verdict.
+  virtual void rendered(const FrameJob& job, const RenderTimings& timings, int worker) = 0;
+  /// `final`: this frame gets no further attempt. Also called for bad verdicts.
+  virtual void attempt_failed(const FrameJob& job, const std::string& message, bool final) = 0;
+  virtual void worker_ready(int worker, const ReadyMessage& ready) = 0;
+};
+
+struct RunSummary {
+  std::int64_t committed = 0;  ///< frames with a good verdict
+  std::int64_t failed = 0;     ///< frames that failed for good
+  std::int64_t left = 0;       ///< frames not done because the run was drained
+  int worker_starts = 0;
+};
+
+/// Frames go to workers one at a time; a worker that dies, hangs, answers nonsense or writes a bad
+/// file is killed and replaced, and its frame is tried again in a fresh one.
+class WorkerPool {
+ public:
+  WorkerPool(PoolOptions options, RenderClient& client);
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  /// Returns when every frame is committed or failed for good, or the run is drained; no worker is
+  /// left then. Failed frames are no error of the run. kEnvironment errors: workers that never get
+  /// ready (with the end of their log), and those of the client. To be called once. It ignores
+  /// nothing and installs no signal handlers.
+  Result<RunSummary> run(const std::vector<PendingFrame>& frames);
+
+  /// The outcome of post-processing; from any thread. An error counts as a failed attempt and the
+  /// worker that rendered it is replaced, except kEnvironment (a full disk), which ends the run
+  /// instead.
+  void post_verdict(const FrameJob& job, Status verdict);
+
+  /// No new frames: run returns when those under way have been rendered and judged. The second call
+  /// kills the workers and waits for verdicts only. Async-signal-safe, from any thread.
+  void drain();
+
+ private:
+  class Loop;
+  std::unique_ptr<Loop> loop_;
+};
+
+}  // namespace seedframe
