@@ -75,14 +75,10 @@ LightSpec light_from_json(const Json& json) {
 }
 
 Json material_json(const MaterialSpec& material) {
-  return {{"base_color", material.base_color},
-          {"metallic", material.metallic},
-          {"roughness", material.roughness},
-          {"specular", material.specular},
-          {"transmission", material.transmission},
-          {"ior", material.ior},
-          {"clearcoat", material.clearcoat},
-          {"texture_repeat", material.texture_repeat},
+  return {{"base_color", material.base_color},     {"metallic", material.metallic},
+          {"roughness", material.roughness},       {"specular", material.specular},
+          {"transmission", material.transmission}, {"ior", material.ior},
+          {"clearcoat", material.clearcoat},       {"texture_repeat", material.texture_repeat},
           {"textures", material.textures}};
 }
 

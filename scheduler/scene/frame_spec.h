@@ -51,13 +51,15 @@ struct MaterialSpec {
   double clearcoat = 0.0;
   double texture_repeat = 1.0;                  ///< repeats per UV unit
   std::map<std::string, std::string> textures;  ///< "color", "metallic", "normal", "roughness"
+
+  bool operator==(const MaterialSpec&) const = default;
 };
 
 struct InstanceSpec {
-  std::string name;         ///< "<object>/<copy>"
-  int id = 0;               ///< value in the index pass; 0 for what is background (the ground)
-  int category = 0;         ///< index into the campaign's categories + 1; 0 for what has no label
-  std::string mesh;         ///< SHA-256 of the mesh buffer
+  std::string name;  ///< "<object>/<copy>"
+  int id = 0;        ///< value in the index pass; 0 for what is background (the ground)
+  int category = 0;  ///< index into the campaign's categories + 1; 0 for what has no label
+  std::string mesh;  ///< SHA-256 of the mesh buffer
   std::vector<int> materials;  ///< for each material slot of the mesh an index into materials
   Affine camera_from_object = Affine::Identity();
 };
@@ -69,12 +71,12 @@ struct LightSpec {
   LightKind kind = LightKind::kPoint;
   Affine camera_from_light = Affine::Identity();
   Rgb color{};
-  double power = 0.0;       ///< watts of radiant flux; for a sun W/m²
-  double radius_m = 0.0;    ///< point and spot
-  double angle_rad = 0.0;   ///< sun: angular diameter; spot: full cone angle
-  double blend = 0.0;       ///< spot: softness of the edge, 0 to 1
-  double width_m = 0.0;     ///< area
-  double height_m = 0.0;    ///< area
+  double power = 0.0;      ///< watts of radiant flux; for a sun W/m²
+  double radius_m = 0.0;   ///< point and spot
+  double angle_rad = 0.0;  ///< sun: angular diameter; spot: full cone angle
+  double blend = 0.0;      ///< spot: softness of the edge, 0 to 1
+  double width_m = 0.0;    ///< area
+  double height_m = 0.0;   ///< area
 };
 
 struct WorldSpec {

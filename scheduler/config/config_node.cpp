@@ -1,0 +1,203 @@
+#include "config/config_node.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "base/nearest_name.h"
+
+namespace seedframe {
+namespace {
+
+std::string join_path(const std::string& parent, const std::string& key) {
+  return parent.empty() ? key : parent + "." + key;
+}
+
+Place yaml_place(const std::string& file, const YAML::Mark& mark, const std::string& path) {
+  return {file, mark.is_null() ? 0 : mark.line + 1, mark.is_null() ? 0 : mark.column + 1, path};
+}
+
+// Aliases make a small file walk like a huge one; every reader of the tree is safe below this
+// bound.
+constexpr int kMostNodes = 1'000'000;
+constexpr int kDeepest = 64;
+
+class TreeCheck {
+ public:
+  TreeCheck(const std::string& file, Diagnostics& errors) : file_(file), errors_(errors) {}
+
+  void walk(const YAML::Node& node, const std::string& path, int depth) {
+    if (++nodes_ > kMostNodes || depth > kDeepest) {
+      if (!bomb_) {
+        errors_.add(yaml_place(file_, node.Mark(), ""),
+                    fmt::format("the config has more than {} values or {} levels (aliases "
+                                "counted each time they are used)",
+                                kMostNodes, kDeepest));
+      }
+      bomb_ = true;
+    }
+    if (bomb_) return;
+    if (node.IsMap()) {
+      std::set<std::string> seen;
+      for (const auto& entry : node) {
+        if (!entry.first.IsScalar()) {
+          errors_.add(yaml_place(file_, entry.first.Mark(), path), "a key must be a plain name");
+          continue;
+        }
+        const std::string& key = entry.first.Scalar();
+        if (!seen.insert(key).second) {
+          errors_.add(yaml_place(file_, entry.first.Mark(), join_path(path, key)),
+                      "this key stands twice in the same mapping");
+        }
+        walk(entry.second, join_path(path, key), depth + 1);
+      }
+    } else if (node.IsSequence()) {
+      std::size_t index = 0;
+      for (const auto& item : node) walk(item, fmt::format("{}[{}]", path, index++), depth + 1);
+    }
+  }
+
+ private:
+  const std::string& file_;
+  Diagnostics& errors_;
+  int nodes_ = 0;
+  bool bomb_ = false;
+};
+
+Result<YAML::Node> load(const std::string& text, const std::string& file) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::ParserException& error) {
+    return fail(ErrorKind::kInput, "{}: this is not YAML: {}",
+                yaml_place(file, error.mark, "").text(), error.msg);
+  } catch (const YAML::Exception& error) {
+    return fail(ErrorKind::kInput, "{}: this is not YAML: {}", file, error.what());
+  }
+}
+
+std::vector<std::string> split_path(const std::string& path) {
+  std::vector<std::string> keys;
+  std::size_t start = 0;
+  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', start)) {
+    keys.push_back(path.substr(start, dot - start));
+    start = dot + 1;
+  }
+  keys.push_back(path.substr(start));
+  return keys;
+}
+
+Status apply(YAML::Node root, const Override& change) {
+  const std::string where = "--set " + change.path + "=" + change.value;
+  Result<YAML::Node> value = load(change.value, where);
+  if (!value) return forward_error(value);
+  const std::vector<std::string> keys = split_path(change.path);
+  YAML::Node node = root;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (keys[i].empty()) return fail(ErrorKind::kInput, "{}: the path has an empty key", where);
+    if (!node.IsMap() && !node.IsNull()) {
+      return fail(ErrorKind::kInput, "{}: there is nothing to set below '{}': it is not a mapping",
+                  where, i == 0 ? "the config" : keys[i - 1]);
+    }
+    if (i + 1 == keys.size()) {
+      node[keys[i]] = *value;
+    } else {
+      YAML::Node next = node[keys[i]];
+      if (!next.IsDefined() || next.IsNull()) {
+        node[keys[i]] = YAML::Node(YAML::NodeType::Map);
+        next = node[keys[i]];
+      }
+      node.reset(next);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Override> parse_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    return fail(ErrorKind::kInput, "--set {}: expected path=value, such as render.samples=16",
+                text);
+  }
+  return Override{text.substr(0, equals), text.substr(equals + 1)};
+}
+
+Result<ConfigNode> ConfigNode::parse(const std::string& text, const std::string& file,
+                                     const std::vector<Override>& overrides) {
+  Result<YAML::Node> root = load(text, file);
+  if (!root) return forward_error(root);
+  Diagnostics errors;
+  TreeCheck(file, errors).walk(*root, "", 0);
+  if (!errors.empty()) return tl::unexpected(errors.as_error());
+  try {
+    for (const Override& change : overrides) {
+      if (Status applied = apply(*root, change); !applied) return forward_error(applied);
+    }
+  } catch (const YAML::Exception& error) {
+    return fail(ErrorKind::kInput, "{}: an override does not fit: {}", file, error.what());
+  }
+  TreeCheck(file, errors).walk(*root, "", 0);
+  if (!errors.empty()) return tl::unexpected(errors.as_error());
+  return ConfigNode(*root, "", std::make_shared<Source>(Source{file, overrides}));
+}
+
+std::string ConfigNode::description() const {
+  switch (node_.Type()) {
+    case YAML::NodeType::Map:
+      return "a mapping";
+    case YAML::NodeType::Sequence:
+      return fmt::format("a list of {}", node_.size());
+    case YAML::NodeType::Scalar:
+      return "'" + node_.Scalar() + "'";
+    default:
+      return "nothing";
+  }
+}
+
+std::optional<ConfigNode> ConfigNode::find(const std::string& key) const {
+  if (!node_.IsMap()) return std::nullopt;
+  for (const auto& entry : node_) {
+    if (entry.first.Scalar() == key) return child(entry.second, join_path(path_, key));
+  }
+  return std::nullopt;
+}
+
+std::vector<std::pair<std::string, ConfigNode>> ConfigNode::entries() const {
+  std::vector<std::pair<std::string, ConfigNode>> list;
+  if (!node_.IsMap()) return list;
+  for (const auto& entry : node_) {
+    list.emplace_back(entry.first.Scalar(),
+                      child(entry.second, join_path(path_, entry.first.Scalar())));
+  }
+  return list;
+}
+
+std::vector<ConfigNode> ConfigNode::items() const {
+  std::vector<ConfigNode> list;
+  if (!node_.IsSequence()) return list;
+  for (const auto& item : node_) {
+    list.push_back(child(item, fmt::format("{}[{}]", path_, list.size())));
+  }
+  return list;
+}
+
+Place ConfigNode::place() const {
+  for (const Override& change : source_->overrides) {
+    const bool inside = path_ == change.path || path_.starts_with(change.path + ".") ||
+                        path_.starts_with(change.path + "[");
+    if (inside) return {"--set " + change.path + "=" + change.value, 0, 0, path_};
+  }
+  return yaml_place(source_->file, node_.Mark(), path_);
+}
+
+void ConfigNode::refuse_unknown_keys(const std::vector<std::string>& known,
+                                     Diagnostics& errors) const {
+  for (const auto& [key, node] : entries()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      errors.add(node.place(), "unknown key" + did_you_mean(key, known));
+    }
+  }
+}
+
+}  // namespace seedframe

@@ -1,0 +1,51 @@
+// Reads one mapping of a config key by key, and in the end refuses the keys that nobody asked for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/campaign_config.h"
+#include "config/values.h"
+
+namespace seedframe {
+
+class SectionReader {
+ public:
+  /// A node that is not a mapping is an error, and then every key is absent.
+  SectionReader(const ConfigNode& node, Diagnostics& errors);
+
+  /// The node below a key, or none; from then on the key is known.
+  std::optional<ConfigNode> find(const std::string& key);
+  /// The same, and an error when it is absent.
+  std::optional<ConfigNode> require(const std::string& key);
+
+  NumberSource number(const std::string& key, double fallback);
+  VectorSource vector(const std::string& key, const std::array<double, 3>& fallback);
+  ColorSource color(const std::string& key, const std::array<double, 3>& fallback);
+  std::string text(const std::string& key, const std::string& fallback);
+  double constant(const std::string& key, double fallback);
+  long long integer(const std::string& key, long long fallback, long long least, long long most);
+  bool flag(const std::string& key, bool fallback);
+  /// A number above zero that cannot vary.
+  double positive(const std::string& key, double fallback);
+  Level redraw(Level fallback);
+  std::vector<VariableConfig> variables(const std::string& key);
+  std::vector<std::string> texts(const std::string& key);
+
+  void refuse_other_keys();
+  Diagnostics& errors() { return errors_; }
+  const ConfigNode& node() const { return node_; }
+
+ private:
+  ConfigNode node_;
+  Diagnostics& errors_;
+  std::vector<std::string> known_;
+};
+
+/// Reads name: {…} pairs; a name that is not letters, digits and '_' is an error, for formulas use
+/// it.
+std::vector<VariableConfig> read_variables(const ConfigNode& node, Diagnostics& errors);
+bool is_identifier(const std::string& name);
+
+}  // namespace seedframe

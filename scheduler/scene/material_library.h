@@ -1,0 +1,44 @@
+// Materials by name: those of the config, of library files, and one for each texture set.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "config/campaign_config.h"
+
+namespace seedframe {
+
+/// Image files of one physical surface, in CC-Textures' naming: <anything>_Color, _Roughness,
+/// _NormalGL, _Metalness (.png, .jpg or .jpeg).
+struct TextureSet {
+  std::string name;
+  std::map<std::string, std::filesystem::path>
+      files;  ///< "color", "roughness", "normal", "metallic"
+};
+
+class MaterialLibrary {
+ public:
+  /// Reads <folder>/library.yaml where it exists, and takes each folder <folder>/<name>/ or
+  /// <folder>/textures/<name>/ that has a colour file for a texture set. What `own` names comes
+  /// before the library's; an earlier folder comes before a later one.
+  static Result<MaterialLibrary> open(const std::vector<std::filesystem::path>& folders,
+                                      const std::vector<MaterialConfig>& own);
+
+  /// Each by its name; a texture set is a material too, plain but for its textures.
+  const std::map<std::string, MaterialConfig>& materials() const { return materials_; }
+  const std::map<std::string, TextureSet>& texture_sets() const { return texture_sets_; }
+  std::vector<std::string> material_names() const;
+  std::vector<std::string> texture_set_names() const;
+
+ private:
+  Status add_folder(const std::filesystem::path& folder);
+  void add_texture_set(const std::filesystem::path& folder);
+
+  std::map<std::string, MaterialConfig> materials_;
+  std::map<std::string, TextureSet> texture_sets_;
+};
+
+}  // namespace seedframe

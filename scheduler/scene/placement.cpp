@@ -1,0 +1,92 @@
+#include "scene/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/portable_math.h"
+
+namespace seedframe {
+
+using portable::radians;
+
+Eigen::Matrix3d rotation_and_scale(const Eigen::Vector3d& rotation_deg, double scale) {
+  std::array<double, 3> c{};
+  std::array<double, 3> s{};
+  for (int i = 0; i < 3; ++i) {
+    // Multiples of 90° are exact, so that a part laid flat lies flat.
+    const double turns = rotation_deg[i] / 90.0;
+    if (turns == std::floor(turns)) {
+      const int quarter = static_cast<int>(std::fmod(std::fmod(turns, 4.0) + 4.0, 4.0));
+      c[static_cast<std::size_t>(i)] =
+          std::array{1.0, 0.0, -1.0, 0.0}[static_cast<std::size_t>(quarter)];
+      s[static_cast<std::size_t>(i)] =
+          std::array{0.0, 1.0, 0.0, -1.0}[static_cast<std::size_t>(quarter)];
+    } else {
+      c[static_cast<std::size_t>(i)] = portable::cos(radians(rotation_deg[i]));
+      s[static_cast<std::size_t>(i)] = portable::sin(radians(rotation_deg[i]));
+    }
+  }
+  Eigen::Matrix3d rx, ry, rz;
+  rx << 1, 0, 0, 0, c[0], -s[0], 0, s[0], c[0];
+  ry << c[1], 0, s[1], 0, 1, 0, -s[1], 0, c[1];
+  rz << c[2], -s[2], 0, s[2], c[2], 0, 0, 0, 1;
+  return rz * ry * rx * scale;
+}
+
+Affine looking_at(const Eigen::Vector3d& position, const Eigen::Vector3d& target, double roll_deg) {
+  const Eigen::Vector3d z = (position - target).normalized();
+  Eigen::Vector3d x = Eigen::Vector3d::UnitZ().cross(z);
+  constexpr double kNearlyVertical = 1e-9;
+  x = x.norm() < kNearlyVertical ? Eigen::Vector3d(1, 0, 0) : x.normalized();
+  const Eigen::Vector3d y = z.cross(x);
+  const double c = portable::cos(radians(roll_deg));
+  const double s = portable::sin(radians(roll_deg));
+  Affine world_from_view = Affine::Identity();
+  world_from_view.linear().col(0) = c * x + s * y;
+  world_from_view.linear().col(1) = c * y - s * x;
+  world_from_view.linear().col(2) = z;
+  world_from_view.translation() = position;
+  return world_from_view;
+}
+
+Eigen::Vector3d on_shell(const Eigen::Vector3d& target, double distance_m, double azimuth_deg,
+                         double elevation_deg) {
+  const double azimuth = radians(azimuth_deg);
+  const double elevation = radians(elevation_deg);
+  const double level = distance_m * portable::cos(elevation);
+  return target + Eigen::Vector3d(level * portable::sin(azimuth), -level * portable::cos(azimuth),
+                                  distance_m * portable::sin(elevation));
+}
+
+double footprint_radius(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                        const Eigen::Matrix3d& linear) {
+  double radius = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d point((corner & 1) != 0 ? high.x() : low.x(),
+                                (corner & 2) != 0 ? high.y() : low.y(),
+                                (corner & 4) != 0 ? high.z() : low.z());
+    const Eigen::Vector3d mapped = linear * point;
+    radius = std::max(radius, std::sqrt(mapped.x() * mapped.x() + mapped.y() * mapped.y()));
+  }
+  return radius;
+}
+
+bool is_clear(const Footprint& circle, const std::vector<Footprint>& others, double gap) {
+  return std::all_of(others.begin(), others.end(), [&](const Footprint& other) {
+    const double dx = circle.x - other.x;
+    const double dy = circle.y - other.y;
+    const double least = circle.radius + other.radius + gap;
+    return dx * dx + dy * dy >= least * least;
+  });
+}
+
+Affine relative_to_camera(const Affine& world_from_camera, const Affine& world_from_object) {
+  const Eigen::Matrix3d camera_from_world = world_from_camera.linear().transpose();
+  Affine result = Affine::Identity();
+  result.linear() = camera_from_world * world_from_object.linear();
+  result.translation() =
+      camera_from_world * (world_from_object.translation() - world_from_camera.translation());
+  return result;
+}
+
+}  // namespace seedframe

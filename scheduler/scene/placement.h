@@ -1,0 +1,43 @@
+// Where things are in the world, and how the camera sees them. Metres; the world has x right, y
+// away, z up.
+#pragma once
+
+#include <vector>
+
+#include "scene/frame_spec.h"
+
+namespace seedframe {
+
+/// Turned about x, then y, then z (Blender's XYZ Euler order), then scaled: R_z · R_y · R_x ·
+/// scale.
+Eigen::Matrix3d rotation_and_scale(const Eigen::Vector3d& rotation_deg, double scale);
+
+/// World from a frame that looks from `position` at `target` down its -z, with its y as near to up
+/// as can be; looking straight up or down, y points away (world y). Turned by roll_deg about the
+/// viewing axis, counter-clockwise as the viewer sees the camera turn.
+Affine looking_at(const Eigen::Vector3d& position, const Eigen::Vector3d& target, double roll_deg);
+
+/// The place on a sphere around the target: azimuth 0 looks along world y, growing
+/// counter-clockwise seen from above; elevation 90 looks straight down.
+Eigen::Vector3d on_shell(const Eigen::Vector3d& target, double distance_m, double azimuth_deg,
+                         double elevation_deg);
+
+/// Bounding circle of an object's shadow on the ground.
+struct Footprint {
+  double x = 0.0;
+  double y = 0.0;
+  double radius = 0.0;
+};
+
+/// About the object's origin, of a box [low, high] in object space under a linear map.
+double footprint_radius(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                        const Eigen::Matrix3d& linear);
+
+/// True if a circle keeps `gap` from all others.
+bool is_clear(const Footprint& circle, const std::vector<Footprint>& others, double gap);
+
+/// camera_from_world · world_from_object in double, subtracting the camera's position first: so
+/// nothing is lost far from the world's origin.
+Affine relative_to_camera(const Affine& world_from_camera, const Affine& world_from_object);
+
+}  // namespace seedframe
