@@ -1,0 +1,213 @@
+#include "geometry/asset_library.h"
+
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/canonical_json.h"
+#include "base/files.h"
+#include "base/portable_math.h"
+#include "base/sha256.h"
+#include "geometry/mesh_buffer.h"
+#include "scratch_folder.h"
+
+namespace seedframe {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr const char* kTetrahedron =
+    "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\n"
+    "usemtl steel\nf 1 3 2\nf 1 2 4\nusemtl paint\nf 1 4 3\nf 2 3 4\n";
+
+class Library : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(write_file(obj(), kTetrahedron)); }
+
+  fs::path obj() const { return folder_ / "part.obj"; }
+  fs::path root() const { return folder_ / "assets"; }
+
+  AssetImport request(const std::string& name) const {
+    return {.file = obj(),
+            .root = root(),
+            .name = name,
+            .category = "tetrahedron",
+            .description = "Four sides",
+            .scale = 0.001,
+            .smooth_angle_deg = 35.0};
+  }
+
+  std::shared_ptr<const Asset> load(const std::string& name) const {
+    const auto library = AssetLibrary::open({root()});
+    EXPECT_TRUE(library);
+    const auto asset = library->load(name);
+    EXPECT_TRUE(asset) << asset.error().message;
+    return asset ? *asset : nullptr;
+  }
+
+  // Loads after one key of asset.json has been changed.
+  Error error_after_setting(const std::string& key, const Json& value) {
+    EXPECT_TRUE(import_asset(request("part")).has_value() || fs::exists(root() / "part"));
+    const fs::path path = root() / "part" / "asset.json";
+    const std::string before = *read_file(path);
+    Json json = *parse_json(before, "asset.json");
+    json[key] = value;
+    if (value.is_null()) json.erase(key);
+    EXPECT_TRUE(write_file(path, readable_json(json)));
+    const auto asset = AssetLibrary::open({root()})->load("part");
+    EXPECT_FALSE(asset) << key;
+    EXPECT_TRUE(write_file(path, before));
+    return asset ? Error{} : asset.error();
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Library, ImportedAssetsAreMeasuredInMetres) {
+  ASSERT_TRUE(import_asset(request("part")));
+  const auto asset = load("part");
+  ASSERT_NE(asset, nullptr);
+  EXPECT_EQ(asset->name, "part");
+  EXPECT_EQ(asset->category, "tetrahedron");
+  EXPECT_EQ(asset->description, "Four sides");
+  EXPECT_EQ(asset->mesh.triangles.size(), 4u);
+  EXPECT_THAT(asset->mesh.slot_names, ElementsAre("steel", "paint"));
+  EXPECT_NEAR(asset->box.size().x(), 0.020, 1e-6);
+  EXPECT_DOUBLE_EQ(asset->mesh.smooth_angle_rad, portable::radians(35.0));
+  EXPECT_NEAR(asset->lowest_z(-Eigen::Matrix3d::Identity()), -0.020, 1e-6);
+  EXPECT_EQ(asset->buffer, mesh_buffer(asset->mesh));
+  EXPECT_EQ(asset->buffer_sha256, sha256_hex(asset->buffer));
+}
+
+TEST_F(Library, ImportingTwiceGivesTheSameBytes) {
+  ASSERT_TRUE(import_asset(request("part")));
+  const std::string mesh = *read_file(root() / "part" / "mesh.drc");
+  const std::string description = *read_file(root() / "part" / "asset.json");
+  AssetImport again = request("part");
+  EXPECT_FALSE(import_asset(again)) << "an asset must not be replaced unasked";
+  again.replace = true;
+  ASSERT_TRUE(import_asset(again));
+  EXPECT_EQ(*read_file(root() / "part" / "mesh.drc"), mesh);
+  EXPECT_EQ(*read_file(root() / "part" / "asset.json"), description);
+  EXPECT_THAT(description, HasSubstr("\"source\": \"part.obj\""));
+}
+
+TEST_F(Library, AFailedImportLeavesTheOldAsset) {
+  ASSERT_TRUE(import_asset(request("part")));
+  ASSERT_TRUE(write_file(obj(), "v 0 0 0\n"));
+  AssetImport again = request("part");
+  again.replace = true;
+  EXPECT_FALSE(import_asset(again));
+  EXPECT_EQ(load("part")->mesh.triangles.size(), 4u);
+}
+
+TEST_F(Library, RefusesImportsThatMakeNoSense) {
+  for (const char* name : {"", "..", "a/b", ".hidden", "two words", "é"}) {
+    EXPECT_FALSE(import_asset(request(name))) << name;
+  }
+  for (const double scale : {0.0, -1.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    AssetImport wrong = request("part");
+    wrong.scale = scale;
+    EXPECT_FALSE(import_asset(wrong)) << scale;
+  }
+  AssetImport wrong = request("part");
+  wrong.smooth_angle_deg = 181.0;
+  EXPECT_FALSE(import_asset(wrong));
+  EXPECT_FALSE(fs::exists(root() / "part"));
+}
+
+TEST_F(Library, ListsAssetsOfAllRootsAndTheFirstRootWins) {
+  ASSERT_TRUE(import_asset(request("part")));
+  ASSERT_TRUE(import_asset(request("bolt")));
+  AssetImport other = request("part");
+  other.root = folder_ / "other";
+  other.category = "another";
+  ASSERT_TRUE(import_asset(other));
+  other.name = "gear";
+  ASSERT_TRUE(import_asset(other));
+  fs::create_directories(root() / "no_asset");
+  fs::create_directories(root() / ".part.importing");
+
+  const auto library = AssetLibrary::open({root(), folder_ / "other"});
+  ASSERT_TRUE(library) << library.error().message;
+  EXPECT_THAT(library->names(), ElementsAre("bolt", "gear", "part"));
+  EXPECT_EQ((*library->load("part"))->category, "tetrahedron");
+  EXPECT_EQ((*library->load("gear"))->category, "another");
+}
+
+TEST_F(Library, UnknownNamesGetTheNearestOne) {
+  ASSERT_TRUE(import_asset(request("hex_bolt")));
+  const auto asset = AssetLibrary::open({root()})->load("hex_blot");
+  ASSERT_FALSE(asset);
+  EXPECT_EQ(asset.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(asset.error().message, HasSubstr("did you mean 'hex_bolt'?"));
+}
+
+TEST_F(Library, AMissingRootIsAnError) {
+  const auto library = AssetLibrary::open({folder_ / "nowhere"});
+  ASSERT_FALSE(library);
+  EXPECT_EQ(library.error().kind, ErrorKind::kInput);
+  EXPECT_FALSE(AssetLibrary::open({obj()})) << "a file is no folder";
+}
+
+TEST_F(Library, ADamagedMeshIsAnErrorWhateverTheDamage) {
+  ASSERT_TRUE(import_asset(request("part")));
+  const fs::path path = root() / "part" / "mesh.drc";
+  const std::string stream = *read_file(path);
+  std::string flipped = stream;
+  flipped[stream.size() / 2] = static_cast<char>(flipped[stream.size() / 2] ^ 1);
+  for (const std::string& damaged :
+       {stream.substr(0, stream.size() - 1), stream + '\0', flipped, std::string()}) {
+    ASSERT_TRUE(write_file(path, damaged));
+    const auto asset = AssetLibrary::open({root()})->load("part");
+    ASSERT_FALSE(asset);
+    EXPECT_EQ(asset.error().kind, ErrorKind::kCorrupt);
+    EXPECT_THAT(asset.error().message, HasSubstr("mesh.drc is damaged"));
+  }
+  fs::remove(path);
+  EXPECT_FALSE(AssetLibrary::open({root()})->load("part"));
+}
+
+TEST_F(Library, ADamagedDescriptionIsAnErrorThatNamesTheKey) {
+  EXPECT_THAT(error_after_setting("version", 2).message, HasSubstr("use a newer Seedframe"));
+  EXPECT_THAT(error_after_setting("version", "1").message, HasSubstr("'version'"));
+  EXPECT_THAT(error_after_setting("category", nullptr).message, HasSubstr("'category' is missing"));
+  EXPECT_THAT(error_after_setting("name", "gear").message, HasSubstr("named 'gear'"));
+  EXPECT_THAT(error_after_setting("triangles", 5).message, HasSubstr("says 5 triangles"));
+  EXPECT_THAT(error_after_setting("slots", Json::array()).message, HasSubstr("'slots'"));
+  EXPECT_THAT(error_after_setting("slots", Json::array({"steel"})).message,
+              HasSubstr("2 material"));
+  EXPECT_THAT(error_after_setting("slots", 3).message, HasSubstr("'slots'"));
+  EXPECT_THAT(error_after_setting("smooth_angle_deg", 999).message, HasSubstr("smooth_angle_deg"));
+  EXPECT_EQ(error_after_setting("mesh_sha256", "00").kind, ErrorKind::kCorrupt);
+}
+
+TEST_F(Library, EveryTruncationOfTheDescriptionIsAnError) {
+  ASSERT_TRUE(import_asset(request("part")));
+  const fs::path path = root() / "part" / "asset.json";
+  const std::string text = *read_file(path);
+  // The last byte is a newline, without which the JSON is whole.
+  for (std::size_t length = 0; length + 1 < text.size(); length += 7) {
+    ASSERT_TRUE(write_file(path, std::string_view(text).substr(0, length)));
+    EXPECT_FALSE(AssetLibrary::open({root()})->load("part")) << length;
+  }
+}
+
+TEST_F(Library, ThreadsShareOneCopy) {
+  ASSERT_TRUE(import_asset(request("part")));
+  const auto library = AssetLibrary::open({root()});
+  ASSERT_TRUE(library);
+  std::vector<std::shared_ptr<const Asset>> loaded(8);
+  std::vector<std::thread> threads;
+  for (auto& slot : loaded) {
+    threads.emplace_back([&slot, copy = *library] { slot = *copy.load("part"); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& asset : loaded) EXPECT_EQ(asset.get(), loaded.front().get());
+}
+
+}  // namespace
+}  // namespace seedframe
