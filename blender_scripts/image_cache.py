@@ -1,0 +1,36 @@
+"""Texture files as Blender images."""
+
+import bpy
+
+from bounded_cache import BoundedCache
+
+MAX_PIXELS = 64_000_000  # of all cached images; Blender holds 4 bytes of each, 16 for float images
+
+
+class ImageCache:
+    def __init__(self, max_pixels=MAX_PIXELS):
+        self._cache = BoundedCache(max_pixels, bpy.data.images.remove)
+
+    def next_frame(self):
+        self._cache.next_frame()
+
+    def trim(self):
+        self._cache.trim()
+
+    def get(self, sha256, is_color, paths):
+        # The colour space belongs to Blender's image, so one file may be two of them.
+        return self._cache.get((sha256, is_color), lambda: _load(sha256, is_color, paths))
+
+
+def _load(sha256, is_color, paths):
+    if sha256 not in paths:
+        raise ValueError(f"texture {sha256} is in the frame spec but not in the request's table")
+    path = paths[sha256]
+    image = bpy.data.images.load(path, check_existing=False)
+    width, height = image.size  # reads the file's header; 0 if it is no image
+    if width == 0 or height == 0:
+        bpy.data.images.remove(image)
+        raise ValueError(f"{path}: no image that Blender can read")
+    image.colorspace_settings.name = "sRGB" if is_color else "Non-Color"
+    image.alpha_mode = "NONE"
+    return image, width * height

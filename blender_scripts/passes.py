@@ -1,0 +1,90 @@
+"""Render settings, passes and the file they go to."""
+
+import os
+
+import bpy
+
+
+class PassRenderer:
+    def __init__(self, scene):
+        self._scene = scene
+        self._view_layer = scene.view_layers[0]
+        _set_constants(scene)
+
+    def render(self, settings, output):
+        """Writes the passes of the present scene to `output`."""
+        render, cycles = self._scene.render, self._scene.cycles
+        render.resolution_x = settings["width"]
+        render.resolution_y = settings["height"]
+        render.filepath = output
+        cycles.samples = settings["samples"]
+        cycles.seed = settings["seed"]
+        cycles.filter_width = settings["filter_width_px"]
+        cycles.sample_clamp_indirect = settings["clamp_indirect"]
+        for limit in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces",
+                      "volume_bounces", "transparent_max_bounces"):
+            setattr(cycles, limit, settings["max_bounces"])
+        self._view_layer.use_pass_z = settings["depth"]
+        self._view_layer.use_pass_normal = settings["normal"]
+
+        if os.path.lexists(output):
+            os.remove(output)  # or an old file could pass for this one
+        bpy.ops.render.render(write_still=True)
+        if not os.path.isfile(output):
+            raise RuntimeError(f"Blender wrote no {output}: is the disk full, or its folder missing?")
+
+
+def _set_constants(scene):
+    """What is the same for every frame. Cycles' defaults change between versions: none is relied on
+    where it shows."""
+    render = scene.render
+    render.engine = "CYCLES"
+    render.resolution_percentage = 100
+    render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+    render.film_transparent = False
+    render.dither_intensity = 0.0
+    render.use_motion_blur = False
+    render.use_border = False
+    render.use_simplify = False
+    render.use_compositing = False
+    render.use_sequencer = False
+    render.use_persistent_data = False  # with it, pixels would depend on the frames before
+    _set_cycles(scene.cycles)
+    _set_output(render)
+    # Exposure and view are ImageSettings and belong to the scheduler.
+    scene.view_settings.view_transform = "Standard"
+    scene.view_settings.look = "None"
+    view_layer = scene.view_layers[0]
+    view_layer.use_pass_combined = True
+    view_layer.use_pass_object_index = True
+
+
+def _set_cycles(cycles):
+    cycles.device = "CPU"
+    cycles.use_adaptive_sampling = False
+    cycles.use_denoising = False
+    cycles.time_limit = 0.0
+    cycles.light_sampling_threshold = 0.0
+    cycles.pixel_filter_type = "BLACKMAN_HARRIS"
+    cycles.caustics_reflective = False
+    cycles.caustics_refractive = False
+    cycles.blur_glossy = 0.0
+    cycles.sample_clamp_direct = 0.0
+    cycles.use_fast_gi = False
+    cycles.use_auto_tile = False
+    if hasattr(cycles, "use_guiding"):  # Blender 3.4
+        cycles.use_guiding = False
+
+
+def _set_output(render):
+    image = render.image_settings
+    image.file_format = "OPEN_EXR_MULTILAYER"
+    image.color_mode = "RGBA"
+    image.color_depth = "16"  # half for Combined; data passes are float all the same
+    image.exr_codec = "ZIP"
+    render.use_overwrite = True
+    render.use_file_extension = False
+    render.use_placeholder = False
+    for stamp in ("time", "date", "frame", "frame_range", "camera", "lens", "scene", "note", "marker",
+                  "filename", "sequencer_strip", "render_time", "memory", "hostname"):
+        setattr(render, f"use_stamp_{stamp}", False)

@@ -1,0 +1,86 @@
+"""The worker's side of docs/formats/worker-protocol.md. Needs no Blender, so it is tested without one."""
+
+import dataclasses
+import json
+import os
+
+PROTOCOL = 1
+SPEC_VERSION = 1
+
+
+class ProtocolError(Exception):
+    """The scheduler sent something that this worker does not understand."""
+
+
+@dataclasses.dataclass(frozen=True)
+class RenderRequest:
+    frame: int
+    attempt: int
+    spec: dict
+    output: str
+    meshes: dict
+    textures: dict
+
+    @staticmethod
+    def parse(line):
+        try:
+            message = json.loads(line)
+        except ValueError as error:
+            raise ProtocolError(f"a request is no JSON ({error}): {line[:200]!r}") from None
+        if not isinstance(message, dict) or message.get("type") != "render":
+            raise ProtocolError(f"expected a 'render' request, got {line[:200]!r}")
+        kinds = {field.name: field.type for field in dataclasses.fields(RenderRequest)}
+        for key, kind in kinds.items():
+            if not isinstance(message.get(key), kind):
+                raise ProtocolError(f"'{key}' of a render request is missing or no {kind.__name__}")
+        return RenderRequest(**{key: message[key] for key in kinds})
+
+
+@dataclasses.dataclass(frozen=True)
+class Ready:
+    blender: str
+    build: str
+    ocio_config: str
+    cpu: str
+    protocol: int = PROTOCOL
+    type: str = "ready"
+
+
+@dataclasses.dataclass(frozen=True)
+class Done:
+    frame: int
+    attempt: int
+    build_s: float
+    render_s: float
+    type: str = "done"
+
+
+@dataclasses.dataclass(frozen=True)
+class Failed:
+    frame: int
+    attempt: int
+    error: str
+    type: str = "failed"
+
+
+class Channel:
+    """Messages over two file descriptors, which may be the same one."""
+
+    def __init__(self, read_fd, write_fd):
+        # Whatever Blender starts must not keep the channel open.
+        os.set_inheritable(read_fd, False)
+        os.set_inheritable(write_fd, False)
+        self._reader = os.fdopen(read_fd, "rb", buffering=1 << 16, closefd=False)
+        self._write_fd = write_fd
+
+    def send(self, message):
+        line = json.dumps(dataclasses.asdict(message), ensure_ascii=False) + "\n"
+        data = line.encode("utf-8", errors="replace")
+        while data:
+            data = data[os.write(self._write_fd, data):]
+
+    def requests(self):
+        """Yields requests until the scheduler closes its end."""
+        for line in self._reader:
+            if line.endswith(b"\n"):  # half a line means that the scheduler died while writing
+                yield RenderRequest.parse(line)

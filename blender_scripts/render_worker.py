@@ -1,0 +1,99 @@
+"""The program of a worker: renders the frames that the scheduler sends until it closes the channel.
+
+A pure function from frame spec to passes: nothing here is random and nothing is decided here.
+Started by Blender as docs/formats/worker-protocol.md says.
+"""
+
+import argparse
+import os
+import sys
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.dont_write_bytecode = True  # the folder may belong to somebody else
+
+import bpy  # noqa: E402
+
+import cpu_kernel  # noqa: E402
+from passes import PassRenderer  # noqa: E402
+from protocol import SPEC_VERSION, Channel, Done, Failed, Ready  # noqa: E402
+from scene_builder import SceneBuilder  # noqa: E402
+
+_LONGEST_ERROR = 2000
+
+
+def main():
+    options = _parse_options()
+    channel = Channel(options.read_fd, options.write_fd)
+    builder = SceneBuilder()
+    renderer = PassRenderer(builder.scene)
+    channel.send(_ready())
+    _silence_stdout()
+    for request in channel.requests():
+        channel.send(_answer(request, builder, renderer))
+    _leave()
+
+
+def _answer(request, builder, renderer):
+    begin = time.perf_counter()
+    try:
+        if request.spec.get("version") != SPEC_VERSION:
+            raise ValueError(f"frame spec of version {request.spec.get('version')}; this worker reads "
+                             f"{SPEC_VERSION}")
+        builder.build(request.spec, request.meshes, request.textures)
+        built = time.perf_counter()
+        renderer.render(request.spec["render"], request.output)
+    except MemoryError:
+        raise  # a fresh worker may have enough
+    except Exception as error:  # one bad frame must not cost the worker
+        text = f"{type(error).__name__}: {error}".strip()
+        return Failed(request.frame, request.attempt, text[-_LONGEST_ERROR:])
+    return Done(request.frame, request.attempt, built - begin, time.perf_counter() - built)
+
+
+def _ready():
+    build = bpy.app.build_hash
+    return Ready(
+        blender=".".join(str(number) for number in bpy.app.version),
+        build=build.decode("ascii", "replace") if isinstance(build, bytes) else str(build),
+        ocio_config=_ocio_config(),
+        cpu=cpu_kernel.current(bpy.app.version),
+    )
+
+
+def _ocio_config():
+    if os.environ.get("OCIO"):  # Blender prefers it too
+        return os.environ["OCIO"]
+    folder = bpy.utils.system_resource("DATAFILES", path="colormanagement")
+    return os.path.join(folder, "config.ocio") if folder else ""
+
+
+def _silence_stdout():
+    """Blender prints some lines for each frame; errors come by exceptions or stderr."""
+    sys.stdout.flush()
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    os.close(nowhere)
+
+
+def _leave():
+    """Blender's own way out frees every datablock first, which nobody needs."""
+    try:
+        for entry in os.scandir(bpy.app.tempdir):
+            os.remove(entry)
+        os.rmdir(bpy.app.tempdir)
+    except OSError:
+        pass
+    sys.stderr.flush()
+    os._exit(0)
+
+
+def _parse_options():
+    arguments = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    parser = argparse.ArgumentParser(prog="render_worker.py")
+    parser.add_argument("--read-fd", type=int, required=True)
+    parser.add_argument("--write-fd", type=int, required=True)
+    return parser.parse_args(arguments)
+
+
+main()

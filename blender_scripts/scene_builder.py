@@ -1,0 +1,154 @@
+"""Puts a frame spec into Blender's scene.
+
+Objects, lights and materials are kept and used again, because making them costs more than rendering a
+small frame. Nothing of an earlier frame may show: every value is overwritten, the order of objects is
+that of the spec, and what a frame does not use is out of the scene.
+"""
+
+import bpy
+from mathutils import Matrix
+
+from image_cache import ImageCache
+from material_pool import MaterialPool
+from mesh_cache import MeshCache
+
+_SENSOR_MM = 36.0
+_LIGHT_TYPES = {"point": "POINT", "sun": "SUN", "spot": "SPOT", "area": "AREA"}
+
+
+class SceneBuilder:
+    def __init__(self):
+        self.scene = bpy.context.scene
+        _empty_the_file()
+        self._camera = self._add_camera()
+        self._background = self._add_world()
+        self._images = ImageCache()
+        self._meshes = MeshCache()
+        self._materials = MaterialPool(self._images)
+        self._nothing = bpy.data.meshes.new("nothing")
+        self._instances = _ObjectPool(self.scene, "instance", self._camera)
+        self._lights = _ObjectPool(self.scene, "light", self._camera)
+        self._light_data = {}  # (kind, index) -> light
+
+    def build(self, spec, mesh_paths, texture_paths):
+        for cache in (self._meshes, self._images, self._materials):
+            cache.next_frame()
+        self._set_camera(spec["camera"], spec["render"]["width"])
+        self._background.inputs["Color"].default_value = (*spec["world"]["color"], 1.0)
+        self._background.inputs["Strength"].default_value = spec["world"]["strength"]
+        materials = [self._materials.get(m, texture_paths) for m in spec["materials"]]
+        self._instances.resize(len(spec["instances"]), self._nothing)
+        for index, instance in enumerate(spec["instances"]):
+            self._set_instance(index, instance, materials, mesh_paths)
+        self._set_lights(spec["lights"])
+        self._meshes.trim()
+        self._images.trim()
+
+    def _add_camera(self):
+        camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+        self.scene.collection.objects.link(camera)
+        self.scene.camera = camera
+        camera.data.sensor_fit = "HORIZONTAL"
+        camera.data.sensor_width = _SENSOR_MM
+        return camera
+
+    def _add_world(self):
+        world = bpy.data.worlds.new("world")
+        self.scene.world = world
+        world.use_nodes = True
+        return world.node_tree.nodes["Background"]
+
+    def _set_camera(self, spec, width):
+        lens_mm = spec["focal_px"] * _SENSOR_MM / width
+        if lens_mm < 1.0:  # Blender would clamp it without a word
+            raise ValueError(f"focal length of {spec['focal_px']} px is below 1/36 of the width")
+        self._camera.data.lens = lens_mm
+        self._camera.data.clip_start = spec["clip_start_m"]
+        self._camera.data.clip_end = spec["clip_end_m"]
+
+    def _set_instance(self, index, spec, materials, mesh_paths):
+        mesh = self._meshes.get(spec["mesh"], mesh_paths)
+        if len(spec["materials"]) != len(mesh.materials):
+            raise ValueError(f"instance {spec['name']} brings {len(spec['materials'])} materials for "
+                             f"the {len(mesh.materials)} slots of its mesh")
+        item = self._instances[index]
+        item.data = mesh
+        item.pass_index = spec["id"]
+        item.matrix_parent_inverse = _matrix(spec["camera_from_object"])
+        for slot, material in zip(item.material_slots, spec["materials"]):
+            slot.link = "OBJECT"  # the mesh is shared between instances
+            slot.material = materials[material]
+
+    def _set_lights(self, specs):
+        # Objects need some data when they are made, so the data comes first.
+        lights = [self._light(index, spec) for index, spec in enumerate(specs)]
+        self._lights.resize(len(lights), *lights[:1])
+        for index, (light, spec) in enumerate(zip(lights, specs)):
+            self._lights[index].data = light
+            self._lights[index].matrix_parent_inverse = _matrix(spec["camera_from_light"])
+            self._lights[index].visible_camera = False  # lights light, they are not things to see
+
+    def _light(self, index, spec):
+        kind = spec["kind"]
+        light = self._light_data.get((kind, index))
+        if light is None:
+            light = bpy.data.lights.new(f"{kind}.{index:03}", _LIGHT_TYPES[kind])
+            self._light_data[kind, index] = light
+        light.color = spec["color"]
+        light.energy = spec["power"]
+        if kind in ("point", "spot"):
+            light.shadow_soft_size = spec["radius_m"]
+        if kind == "spot":
+            light.spot_size = spec["angle_rad"]
+            light.spot_blend = spec["blend"]
+        if kind == "sun":
+            light.angle = spec["angle_rad"]
+        if kind == "area":
+            light.shape = "RECTANGLE"
+            light.size = spec["width_m"]
+            light.size_y = spec["height_m"]
+        return light
+
+
+class _ObjectPool:
+    """Objects of one sort, in the scene in the order of their index."""
+
+    def __init__(self, scene, name, camera):
+        self._name = name
+        self._camera = camera
+        self._collection = bpy.data.collections.new(name)
+        scene.collection.children.link(self._collection)
+        self._objects = []
+        self._linked = 0
+
+    def __getitem__(self, index):
+        return self._objects[index]
+
+    def resize(self, count, data=None):
+        """Exactly `count` objects in the scene; new ones begin with `data`."""
+        while len(self._objects) < count:
+            item = bpy.data.objects.new(f"{self._name}.{len(self._objects):05}", data)
+            # An object's own transform is kept as location, rotation and scale, and rounds; the
+            # matrix between it and its parent is kept as it is.
+            item.parent = self._camera
+            self._objects.append(item)
+        while self._linked < count:
+            self._collection.objects.link(self._objects[self._linked])
+            self._linked += 1
+        while self._linked > count:
+            self._linked -= 1
+            self._collection.objects.unlink(self._objects[self._linked])
+            if self._objects[self._linked].type == "MESH":
+                # Removing a mesh from the cache would remove the objects that have it.
+                self._objects[self._linked].data = data
+
+
+def _matrix(numbers):
+    return Matrix((numbers[0:4], numbers[4:8], numbers[8:12], numbers[12:16]))
+
+
+def _empty_the_file():
+    for items in (bpy.data.objects, bpy.data.collections, bpy.data.meshes, bpy.data.materials,
+                  bpy.data.lights, bpy.data.cameras, bpy.data.worlds, bpy.data.images):
+        for item in list(items):
+            items.remove(item)

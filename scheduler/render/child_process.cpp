@@ -1,0 +1,173 @@
+#include "render/child_process.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+#include <thread>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace seedframe {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::vector<char*> pointers(const std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  result.reserve(texts.size() + 1);
+  for (const std::string& text : texts) result.push_back(const_cast<char*>(text.c_str()));
+  result.push_back(nullptr);
+  return result;
+}
+
+// Runs between fork and exec, where only async-signal-safe functions may be called.
+[[noreturn]] void become(const ChildCommand& command, char* const* arguments,
+                         char* const* environment, pid_t parent) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);  // the parent died before prctl
+
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  signal(SIGPIPE, SIG_DFL);  // ignored signals stay ignored after exec
+
+  // Out of the way of the numbers that they are about to get.
+  constexpr int kAbove = 10;
+  const int output = fcntl(command.output, F_DUPFD, kAbove);
+  const int channel = command.channel < 0 ? -1 : fcntl(command.channel, F_DUPFD, kAbove);
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+  if (channel >= 0) dup2(channel, kChildChannel);
+  close_range(channel >= 0 ? kChildChannel + 1 : kChildChannel, ~0U, 0);
+
+  execve(arguments[0], arguments, environment);
+  const char* why = strerrordesc_np(errno);
+  const std::string_view parts[] = {"cannot start ", arguments[0], ": ", why == nullptr ? "?" : why,
+                                    "\n"};
+  for (const std::string_view part : parts) {
+    if (write(STDERR_FILENO, part.data(), part.size()) < 0) break;
+  }
+  _exit(127);
+}
+
+bool starts_with_any(std::string_view text, const auto& beginnings) {
+  return std::any_of(std::begin(beginnings), std::end(beginnings),
+                     [&](std::string_view beginning) { return text.starts_with(beginning); });
+}
+
+// Reads until the end or the deadline; false if the deadline came first.
+bool read_all(int fd, Clock::time_point deadline, std::string& text) {
+  std::array<char, 4096> buffer;
+  while (true) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    if (left.count() <= 0) return false;
+    pollfd waiting = {fd, POLLIN, 0};
+    if (poll(&waiting, 1, static_cast<int>(left.count())) <= 0) continue;
+    const ssize_t bytes = read(fd, buffer.data(), buffer.size());
+    if (bytes == 0 || (bytes < 0 && errno != EINTR)) return true;
+    if (bytes > 0) text.append(buffer.data(), static_cast<std::size_t>(bytes));
+  }
+}
+
+}  // namespace
+
+Result<pid_t> start_child(const ChildCommand& command) {
+  const std::vector<char*> arguments = pointers(command.arguments);
+  const std::vector<char*> environment = pointers(command.environment);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) {
+    return fail(ErrorKind::kEnvironment, "cannot start {}: fork: {}", command.arguments.front(),
+                std::strerror(errno));
+  }
+  if (child == 0) become(command, arguments.data(), environment.data(), parent);
+  setpgid(child, child);  // here too: whoever comes first, the group exists before anyone kills it
+  return child;
+}
+
+std::optional<int> wait_for_child(pid_t child, std::chrono::milliseconds longest) {
+  const auto deadline = Clock::now() + longest;
+  auto pause = std::chrono::microseconds(100);
+  while (true) {
+    int status = 0;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) return std::nullopt;
+    if (Clock::now() >= deadline) return std::nullopt;
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::microseconds(5000));
+  }
+}
+
+std::optional<int> kill_child(pid_t child) {
+  kill(-child, SIGKILL);
+  return wait_for_child(child, std::chrono::seconds(10));
+}
+
+std::string describe_wait_status(const std::optional<int>& status) {
+  if (!status) return "did not end";
+  if (WIFSIGNALED(*status)) {
+    const char* name = sigdescr_np(WTERMSIG(*status));
+    return fmt::format("was killed by signal {} ({})", WTERMSIG(*status),
+                       name == nullptr ? "unknown" : name);
+  }
+  return fmt::format("exited with status {}", WEXITSTATUS(*status));
+}
+
+Result<std::string> output_of(const std::vector<std::string>& arguments,
+                              std::chrono::milliseconds longest) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+    return fail(ErrorKind::kEnvironment, "cannot make a pipe: {}", std::strerror(errno));
+  }
+  ChildCommand command;
+  command.arguments = arguments;
+  command.environment = worker_environment({});
+  command.output = ends[1];
+  const Result<pid_t> child = start_child(command);
+  close(ends[1]);
+  std::string text;
+  const bool complete = child && read_all(ends[0], Clock::now() + longest, text);
+  close(ends[0]);
+  if (!child) return forward_error(child);
+  const std::optional<int> status =
+      complete ? wait_for_child(*child, longest) : std::optional<int>();
+  if (!status) {
+    kill_child(*child);
+    return fail(ErrorKind::kEnvironment, "{} gave no answer within {} s", fmt::join(arguments, " "),
+                longest.count() / 1000);
+  }
+  if (*status != 0) {
+    return fail(ErrorKind::kEnvironment, "{} {}: {}", fmt::join(arguments, " "),
+                describe_wait_status(status), text.substr(0, 500));
+  }
+  return text;
+}
+
+std::vector<std::string> worker_environment(
+    const std::vector<std::pair<std::string, std::string>>& changes) {
+  constexpr std::array<std::string_view, 3> kDropped = {"PYTHON", "BLENDER_USER_", "OCIO="};
+  std::vector<std::string> result;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    const bool changed = std::any_of(changes.begin(), changes.end(), [&](const auto& change) {
+      return text.starts_with(change.first + "=");
+    });
+    if (!changed && !starts_with_any(text, kDropped)) result.emplace_back(text);
+  }
+  for (const auto& [name, value] : changes) result.push_back(name + "=" + value);
+  return result;
+}
+
+}  // namespace seedframe

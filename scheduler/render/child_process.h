@@ -1,0 +1,50 @@
+// Starting a program so that it cannot outlive us, hold our files open or see more than it should.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+#include "base/error.h"
+
+namespace seedframe {
+
+struct ChildCommand {
+  std::vector<std::string> arguments;    ///< the first is the program's path
+  std::vector<std::string> environment;  ///< "NAME=value", complete
+  int output = -1;                       ///< becomes stdout and stderr
+  int channel = -1;                      ///< becomes kChildChannel; -1: none
+};
+
+/// The descriptor under which a child finds its channel.
+inline constexpr int kChildChannel = 3;
+
+/// The child leads a process group of its own, so a terminal's Ctrl-C does not reach it, inherits
+/// nothing but the descriptors of its command, and gets SIGKILL when the *thread* that called this
+/// ends, however it ends.
+Result<pid_t> start_child(const ChildCommand& command);
+
+/// Waits at most so long for the end of a child; its wait status, or empty if it still runs.
+std::optional<int> wait_for_child(pid_t child, std::chrono::milliseconds longest);
+
+/// SIGKILL to the child's process group, and its wait status. Empty if even that does not end it (a
+/// process stuck in the kernel); it is left behind then.
+std::optional<int> kill_child(pid_t child);
+
+/// "exited with status 3", "was killed by signal 11 (Segmentation fault)".
+std::string describe_wait_status(const std::optional<int>& status);
+
+/// What a program prints, stdout and stderr together; kEnvironment errors when it cannot be
+/// started, takes longer or ends with another status than 0.
+Result<std::string> output_of(const std::vector<std::string>& arguments,
+                              std::chrono::milliseconds longest);
+
+/// Our environment without what would change how Blender or its Python behave, with `changes` on
+/// top.
+std::vector<std::string> worker_environment(
+    const std::vector<std::pair<std::string, std::string>>& changes);
+
+}  // namespace seedframe

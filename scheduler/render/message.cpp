@@ -1,0 +1,66 @@
+#include "render/message.h"
+
+#include <fmt/format.h>
+
+#include "base/canonical_json.h"
+
+namespace seedframe {
+namespace {
+
+Json path_table(const std::map<std::string, std::filesystem::path>& paths) {
+  Json table = Json::object();
+  for (const auto& [name, path] : paths) table[name] = path.string();
+  return table;
+}
+
+// For error messages: the beginning of what came, as printable ASCII.
+std::string quote(std::string_view line) {
+  constexpr std::size_t kLongest = 120;
+  std::string text;
+  for (const char c : line.substr(0, kLongest)) text += (c >= ' ' && c < 127) ? c : '?';
+  return line.size() > kLongest ? text + "…" : text;
+}
+
+tl::unexpected<Error> not_a_message(std::string_view line, const std::string& why) {
+  return fail(ErrorKind::kRender, "expected a message of the worker protocol, got \"{}\" ({})",
+              quote(line), why);
+}
+
+WorkerMessage read(const Json& json) {
+  const auto type = json.at("type").get<std::string>();
+  if (type == "ready") {
+    return ReadyMessage{json.at("protocol").get<int>(), json.at("blender").get<std::string>(),
+                        json.at("build").get<std::string>(),
+                        json.at("ocio_config").get<std::string>(),
+                        json.at("cpu").get<std::string>()};
+  }
+  const FrameJob job = {json.at("frame").get<std::int64_t>(), json.at("attempt").get<int>()};
+  if (type == "done") {
+    return DoneMessage{job, json.at("build_s").get<double>(), json.at("render_s").get<double>()};
+  }
+  if (type == "failed") return FailedMessage{job, json.at("error").get<std::string>()};
+  throw Json::other_error::create(501, "unknown type '" + type + "'", nullptr);
+}
+
+}  // namespace
+
+std::string encode_render_message(const FrameJob& job, const RenderRequest& request) {
+  // The spec is JSON already; reading it again would cost more than sending it.
+  const auto replace = Json::error_handler_t::replace;
+  return fmt::format(
+      R"({{"type":"render","frame":{},"attempt":{},"output":{},"meshes":{},"textures":{},"spec":{}}})"
+      "\n",
+      job.frame, job.attempt, Json(request.output.string()).dump(-1, ' ', false, replace),
+      path_table(request.meshes).dump(-1, ' ', false, replace),
+      path_table(request.textures).dump(-1, ' ', false, replace), request.spec);
+}
+
+Result<WorkerMessage> parse_worker_message(std::string_view line) {
+  try {
+    return read(Json::parse(line));
+  } catch (const Json::exception& error) {
+    return not_a_message(line, error.what());
+  }
+}
+
+}  // namespace seedframe
