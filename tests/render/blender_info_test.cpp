@@ -1,0 +1,79 @@
+#include "render/blender_info.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace seedframe {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string kFake = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
+
+fs::path script(const std::string& name, const std::string& text) {
+  const fs::path path = fs::path(testing::TempDir()) / name;
+  std::ofstream(path) << text;
+  fs::permissions(path, fs::perms::owner_all);
+  return path;
+}
+
+TEST(BlenderInfo, ReadsVersions) {
+  const auto info = parse_blender_version("Blender 3.4.1\n\tbuild date: 2023-01-21\n");
+  ASSERT_TRUE(info);
+  EXPECT_EQ(info->version, "3.4.1");
+  EXPECT_TRUE(info->tested);
+  const auto lts = parse_blender_version("a library warns\nBlender 4.2.0 LTS\n");
+  ASSERT_TRUE(lts);
+  EXPECT_EQ(lts->major, 4);
+  EXPECT_EQ(lts->minor, 2);
+  EXPECT_FALSE(lts->tested);
+  EXPECT_TRUE(parse_blender_version("Blender 3.3.0"));
+}
+
+TEST(BlenderInfo, RefusesOldVersionsAndOtherPrograms) {
+  EXPECT_THAT(parse_blender_version("Blender 3.2.9").error().message, HasSubstr("too old"));
+  EXPECT_THAT(parse_blender_version("Blender 2.93.0").error().message, HasSubstr("3.3 or newer"));
+  EXPECT_FALSE(parse_blender_version(""));
+  EXPECT_FALSE(parse_blender_version("GNU bash 5.2"));
+  EXPECT_FALSE(parse_blender_version("Blender 99999999999999999999.1"));
+}
+
+TEST(BlenderInfo, FindsTheProgramAndAsksIt) {
+  const auto info = probe_blender(kFake);
+  ASSERT_TRUE(info) << info.error().message;
+  EXPECT_EQ(info->program, kFake);
+  EXPECT_EQ(info->version, "3.4.1");
+}
+
+TEST(BlenderInfo, SaysWhatToDoWhenThereIsNone) {
+  for (const char* missing : {"/no/such/blender", "no-such-blender"}) {
+    const auto info = probe_blender(missing);
+    ASSERT_FALSE(info);
+    EXPECT_EQ(info.error().kind, ErrorKind::kEnvironment);
+    EXPECT_THAT(info.error().message, HasSubstr("--blender PATH"));
+    EXPECT_THAT(info.error().message, HasSubstr(missing));
+  }
+}
+
+TEST(BlenderInfo, AFileThatMayNotBeExecutedIsNoProgram) {
+  const fs::path path = script("not-executable", "#!/bin/sh\n");
+  fs::permissions(path, fs::perms::owner_read);
+  EXPECT_THAT(probe_blender(path.string()).error().message, HasSubstr("may be executed"));
+  EXPECT_FALSE(probe_blender(testing::TempDir()));
+}
+
+TEST(BlenderInfo, AProgramThatFailsIsAnErrorWithItsOutput) {
+  const fs::path path =
+      script("broken-blender", "#!/bin/sh\necho libfoo.so is missing >&2; exit 127\n");
+  const auto info = probe_blender(path.string());
+  ASSERT_FALSE(info);
+  EXPECT_THAT(info.error().message, HasSubstr("libfoo.so is missing"));
+  EXPECT_THAT(info.error().message, HasSubstr("127"));
+}
+
+}  // namespace
+}  // namespace seedframe

@@ -1,0 +1,85 @@
+#include "render/message.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/canonical_json.h"
+
+namespace seedframe {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Message, ARenderRequestIsOneLineOfJson) {
+  RenderRequest request;
+  request.spec = R"({"version":1})";
+  request.output = "/out/a \"quoted\"\nname.exr";
+  request.meshes["abc"] = "/meshes/abc.mesh";
+  request.textures["def"] = "/textures/def.png";
+  const std::string line = encode_render_message({42, 2}, request);
+  ASSERT_EQ(line.find('\n'), line.size() - 1);
+  const Json json = Json::parse(line);
+  EXPECT_EQ(json, (Json{{"type", "render"},
+                        {"frame", 42},
+                        {"attempt", 2},
+                        {"spec", {{"version", 1}}},
+                        {"output", "/out/a \"quoted\"\nname.exr"},
+                        {"meshes", {{"abc", "/meshes/abc.mesh"}}},
+                        {"textures", {{"def", "/textures/def.png"}}}}));
+}
+
+TEST(Message, EmptyTablesAreObjects) {
+  const Json json = Json::parse(encode_render_message({0, 1}, {"{}", "/x", {}, {}}));
+  EXPECT_TRUE(json["meshes"].is_object());
+  EXPECT_TRUE(json["textures"].is_object());
+}
+
+TEST(Message, ReadsReady) {
+  const auto message = parse_worker_message(
+      R"({"type":"ready","protocol":1,"blender":"3.4.1","build":"b","ocio_config":"/c","cpu":"avx2"})");
+  ASSERT_TRUE(message);
+  const auto& ready = std::get<ReadyMessage>(*message);
+  EXPECT_EQ(ready.protocol, 1);
+  EXPECT_EQ(ready.blender, "3.4.1");
+  EXPECT_EQ(ready.build, "b");
+  EXPECT_EQ(ready.ocio_config, "/c");
+  EXPECT_EQ(ready.cpu, "avx2");
+}
+
+TEST(Message, ReadsDone) {
+  const auto message =
+      parse_worker_message(R"({"type":"done","frame":42,"attempt":2,"build_s":0.5,"render_s":1})");
+  ASSERT_TRUE(message);
+  const auto& done = std::get<DoneMessage>(*message);
+  EXPECT_EQ(done.job, (FrameJob{42, 2}));
+  EXPECT_EQ(done.build_s, 0.5);
+  EXPECT_EQ(done.render_s, 1.0);
+}
+
+TEST(Message, ReadsFailed) {
+  const auto message =
+      parse_worker_message(R"({"type":"failed","frame":1,"attempt":1,"error":"no"})");
+  ASSERT_TRUE(message);
+  EXPECT_EQ(std::get<FailedMessage>(*message).error, "no");
+}
+
+TEST(Message, AnythingElseIsAnErrorThatQuotesIt) {
+  for (const char* line :
+       {"", "Fra:1 Mem:22M", "{", "[]", "1", "null", "{}", R"({"type":"render"})",
+        R"({"type":"done","frame":42})", R"({"type":"done","frame":"x","attempt":1})",
+        R"({"type":"ready","protocol":"1"})", R"({"type":"failed","frame":1,"attempt":1})",
+        "\xff\xfe\x00garbage"}) {
+    const auto message = parse_worker_message(line);
+    ASSERT_FALSE(message) << line;
+    EXPECT_EQ(message.error().kind, ErrorKind::kRender);
+    EXPECT_THAT(message.error().message, HasSubstr("worker protocol"));
+  }
+  EXPECT_THAT(parse_worker_message("Fra:1 Mem:22M").error().message, HasSubstr("Fra:1 Mem:22M"));
+}
+
+TEST(Message, ALongLineIsQuotedInPart) {
+  EXPECT_LT(parse_worker_message(std::string(100'000, 'x')).error().message.size(), 600u);
+}
+
+}  // namespace
+}  // namespace seedframe
