@@ -22,17 +22,18 @@ struct PixelBox {
 };
 
 struct InstanceLabel {
-  int id = 0;        ///< value in instances.png
-  int category = 0;  ///< 1-based; 0: a distractor
-  std::string name;  ///< "<object>/<copy>"
+  int id = 0;                ///< value in instances.png
+  int category = 0;          ///< 1-based; 0: a distractor
+  std::string name;          ///< "<object>/<copy>"
   std::int64_t area_px = 0;  ///< visible pixels; 0: wholly hidden or out of view
-  PixelBox box;      ///< of the visible pixels; all 0 when there are none
+  PixelBox box;              ///< of the visible pixels; all 0 when there are none
 };
 
 struct FrameLabels {
   int width = 0;
   int height = 0;
-  std::vector<InstanceLabel> instances;  ///< every instance of the spec with an id, in the spec's order
+  /// Every instance of the spec with an id, in the spec's order.
+  std::vector<InstanceLabel> instances;
 };
 
 /// An id in the image that the spec does not have is a kRender error.

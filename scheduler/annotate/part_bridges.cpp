@@ -1,0 +1,145 @@
+#include "annotate/part_bridges.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <numeric>
+#include <tuple>
+
+namespace seedframe {
+namespace {
+
+constexpr std::ptrdiff_t kNobody = -1;
+
+/// For each pixel of the box a crack of the nearest part; kNobody inside the parts.
+class NearestCracks {
+ public:
+  NearestCracks(const Mask& mask, const Boundary& boundary) : box_(mask.box()) {
+    nearest_.assign(static_cast<std::size_t>(box_.width) * static_cast<std::size_t>(box_.height),
+                    kNobody);
+    std::vector<Pixel> front;
+    for (std::size_t i = 0; i < boundary.cracks.size(); ++i) {
+      const Crack& crack = boundary.cracks[i];
+      claim({crack.row, crack.column}, static_cast<std::ptrdiff_t>(i), front);
+    }
+    while (!front.empty()) front = advance(mask, front);
+  }
+
+  std::ptrdiff_t at(int row, int column) const {
+    if (row < box_.y || row >= box_.y + box_.height || column < box_.x ||
+        column >= box_.x + box_.width) {
+      return kNobody;
+    }
+    return nearest_[position({row, column})];
+  }
+
+ private:
+  struct Pixel {
+    int row;
+    int column;
+  };
+
+  std::size_t position(Pixel pixel) const {
+    return static_cast<std::size_t>(pixel.row - box_.y) * static_cast<std::size_t>(box_.width) +
+           static_cast<std::size_t>(pixel.column - box_.x);
+  }
+
+  void claim(Pixel pixel, std::ptrdiff_t crack, std::vector<Pixel>& front) {
+    std::ptrdiff_t& owner = nearest_[position(pixel)];
+    if (owner != kNobody) return;
+    owner = crack;
+    front.push_back(pixel);
+  }
+
+  /// One more step of a breadth-first search: the background pixels around the front.
+  std::vector<Pixel> advance(const Mask& mask, const std::vector<Pixel>& front) {
+    std::vector<Pixel> next;
+    for (const Pixel& pixel : front) {
+      const std::ptrdiff_t owner = nearest_[position(pixel)];
+      for (int row = std::max(pixel.row - 1, box_.y);
+           row <= std::min(pixel.row + 1, box_.y + box_.height - 1); ++row) {
+        for (int column = std::max(pixel.column - 1, box_.x);
+             column <= std::min(pixel.column + 1, box_.x + box_.width - 1); ++column) {
+          if (!mask.at(row, column)) claim({row, column}, owner, next);
+        }
+      }
+    }
+    return next;
+  }
+
+  PixelBox box_;
+  std::vector<std::ptrdiff_t> nearest_;
+};
+
+struct Candidate {
+  int length;
+  std::size_t from_crack;
+  std::size_t to_crack;
+  bool operator<(const Candidate& other) const {
+    return std::tie(length, from_crack, to_crack) <
+           std::tie(other.length, other.from_crack, other.to_crack);
+  }
+};
+
+/// A bridge wherever the regions of two parts meet.
+std::vector<Candidate> find_candidates(const Mask& mask, const Boundary& boundary,
+                                       const std::vector<std::size_t>& part_of_ring) {
+  const NearestCracks nearest(mask, boundary);
+  const PixelBox& box = mask.box();
+  std::vector<Candidate> candidates;
+  const auto part = [&](std::size_t crack) { return part_of_ring[boundary.ring_of_crack[crack]]; };
+  constexpr std::array<std::array<int, 2>, 4> kNeighbours = {{{0, 1}, {1, -1}, {1, 0}, {1, 1}}};
+  for (int row = box.y; row < box.y + box.height; ++row) {
+    for (int column = box.x; column < box.x + box.width; ++column) {
+      const std::ptrdiff_t here = nearest.at(row, column);
+      if (here == kNobody) continue;
+      for (const auto& [down, right] : kNeighbours) {
+        const std::ptrdiff_t there = nearest.at(row + down, column + right);
+        if (there == kNobody) continue;
+        const auto from = static_cast<std::size_t>(std::min(here, there));
+        const auto to = static_cast<std::size_t>(std::max(here, there));
+        if (part(from) == part(to)) continue;
+        const Crack& a = boundary.cracks[from];
+        const Crack& b = boundary.cracks[to];
+        const int length = std::max(std::abs(a.row - b.row), std::abs(a.column - b.column));
+        candidates.push_back({length, from, to});
+      }
+    }
+  }
+  return candidates;
+}
+
+std::size_t find_root(std::vector<std::size_t>& parents, std::size_t part) {
+  while (parents[part] != part) {
+    parents[part] = parents[parents[part]];
+    part = parents[part];
+  }
+  return part;
+}
+
+}  // namespace
+
+// Kruskal's minimum spanning tree over the pairs of parts whose regions of nearest pixels meet.
+std::vector<PartBridge> bridge_parts(const Mask& mask, const Boundary& boundary,
+                                     const std::vector<std::size_t>& part_of_ring,
+                                     std::size_t parts) {
+  std::vector<PartBridge> bridges;
+  if (parts < 2) return bridges;
+  std::vector<Candidate> candidates = find_candidates(mask, boundary, part_of_ring);
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<std::size_t> parents(parts);
+  std::iota(parents.begin(), parents.end(), std::size_t{0});
+  for (const Candidate& candidate : candidates) {
+    const std::size_t from =
+        find_root(parents, part_of_ring[boundary.ring_of_crack[candidate.from_crack]]);
+    const std::size_t to =
+        find_root(parents, part_of_ring[boundary.ring_of_crack[candidate.to_crack]]);
+    if (from == to) continue;
+    parents[to] = from;
+    bridges.push_back({candidate.from_crack, candidate.to_crack});
+  }
+  assert(bridges.size() + 1 == parts);
+  return bridges;
+}
+
+}  // namespace seedframe

@@ -1,0 +1,61 @@
+#include "annotate/rle.h"
+
+namespace seedframe {
+namespace {
+
+void append_number(std::string& out, std::int64_t value) {
+  bool more = true;
+  while (more) {
+    const std::int64_t group = value & 0x1f;
+    value >>= 5;
+    // The number ends when what is left is only the sign that bit 0x10 of this group already shows.
+    more = (group & 0x10) != 0 ? value != -1 : value != 0;
+    out += static_cast<char>(48 + group + (more ? 0x20 : 0));
+  }
+}
+
+}  // namespace
+
+Rle encode_rle(const Mask& mask) {
+  Rle rle{.height = mask.image_height(), .width = mask.image_width(), .counts = {}};
+  const PixelBox& box = mask.box();
+  const std::int64_t height = mask.image_height();
+  const std::int64_t pixels = height * mask.image_width();
+  bool inside = false;
+  std::int64_t run_begin = 0;
+  const auto toggle_at = [&](std::int64_t position) {
+    rle.counts.push_back(static_cast<std::uint32_t>(position - run_begin));
+    run_begin = position;
+    inside = !inside;
+  };
+  for (int column = box.x; column < box.x + box.width; ++column) {
+    for (int row = box.y; row < box.y + box.height; ++row) {
+      if (mask.at(row, column) != inside) toggle_at(column * height + row);
+    }
+    // Background follows the box's last row, unless the box is as high as the image: then the run
+    // may go on in the next column. Nothing follows the image's last pixel.
+    const std::int64_t end = column * height + box.y + box.height;
+    if (inside && box.height < height && end < pixels) toggle_at(end);
+  }
+  if (inside && box.x + box.width < mask.image_width()) toggle_at((box.x + box.width) * height);
+  rle.counts.push_back(static_cast<std::uint32_t>(pixels - run_begin));
+  return rle;
+}
+
+std::int64_t rle_area(const Rle& rle) {
+  std::int64_t area = 0;
+  for (std::size_t i = 1; i < rle.counts.size(); i += 2) area += rle.counts[i];
+  return area;
+}
+
+std::string rle_string(const Rle& rle) {
+  std::string text;
+  for (std::size_t i = 0; i < rle.counts.size(); ++i) {
+    std::int64_t value = rle.counts[i];
+    if (i > 2) value -= rle.counts[i - 2];
+    append_number(text, value);
+  }
+  return text;
+}
+
+}  // namespace seedframe

@@ -1,0 +1,30 @@
+// COCO's run-length encoding of a mask (the format of pycocotools).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "annotate/mask.h"
+
+namespace seedframe {
+
+/// Runs of alternating background and mask, background first (0 long when the first pixel is in the
+/// mask), over the whole image column by column. They add up to width · height.
+struct Rle {
+  int height = 0;
+  int width = 0;
+  std::vector<std::uint32_t> counts;
+};
+
+Rle encode_rle(const Mask& mask);
+
+/// Number of mask pixels: the sum of every second run.
+std::int64_t rle_area(const Rle& rle);
+
+/// The runs as printable ASCII. From the fourth run on the difference to the run two before is
+/// written; each number in groups of five bits, lowest first, two's complement; a character is
+/// 48 + the five bits + 32 if another group follows. Equal to the string that pycocotools writes.
+std::string rle_string(const Rle& rle);
+
+}  // namespace seedframe

@@ -1,0 +1,308 @@
+#include "annotate/polygon.h"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "coco_decoder.h"
+#include "mask_cases.h"
+#include "yolo_decoder.h"
+
+namespace seedframe {
+namespace {
+
+/// Twice the area inside a polygon, in square hundredths of a pixel; positive when it runs
+/// clockwise as seen in the image.
+std::int64_t twice_area(const Polygon& polygon) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vertex& a = polygon[i];
+    const Vertex& b = polygon[(i + 1) % polygon.size()];
+    sum += std::int64_t{a.x} * b.y - std::int64_t{b.x} * a.y;
+  }
+  return sum;
+}
+
+Polygon pixels(std::vector<std::pair<int, int>> corners) {
+  Polygon polygon;
+  for (const auto& [x, y] : corners) polygon.push_back({100 * x, 100 * y});
+  return polygon;
+}
+
+std::vector<double> coordinates(const Polygon& polygon) {
+  std::vector<double> xy;
+  for (const Vertex& vertex : polygon) {
+    xy.push_back(vertex.x / 100.0);
+    xy.push_back(vertex.y / 100.0);
+  }
+  return xy;
+}
+
+std::vector<std::vector<double>> coordinates(const std::vector<Polygon>& polygons) {
+  std::vector<std::vector<double>> all;
+  for (const Polygon& polygon : polygons) all.push_back(coordinates(polygon));
+  return all;
+}
+
+yolo_decoder::Row yolo_row(const Polygon& polygon, int width, int height) {
+  yolo_decoder::Row row{.category = 0, .numbers = {}};
+  for (const Vertex& vertex : polygon) {
+    row.numbers.push_back(static_cast<float>(vertex.x / 100.0 / width));
+    row.numbers.push_back(static_cast<float>(vertex.y / 100.0 / height));
+  }
+  return row;
+}
+
+/// Points spread evenly over the polygon's parameter, as ultralytics resamples segments: `count` of
+/// them beside the vertices themselves.
+yolo_decoder::Row resampled(const yolo_decoder::Row& row, std::size_t count) {
+  const std::size_t vertices = row.numbers.size() / 2;
+  std::set<double> places;
+  for (std::size_t i = 0; i <= vertices; ++i) places.insert(static_cast<double>(i));
+  for (std::size_t i = 0; i < count; ++i) {
+    places.insert(static_cast<double>(i) * static_cast<double>(vertices) /
+                  static_cast<double>(count));
+  }
+  yolo_decoder::Row dense{.category = row.category, .numbers = {}};
+  for (const double place : places) {
+    const auto from = static_cast<std::size_t>(place) % vertices;
+    const double share = place - std::floor(place);
+    for (const std::size_t axis : {0, 1}) {
+      const double a = row.numbers[2 * from + axis];
+      const double b = row.numbers[2 * ((from + 1) % vertices) + axis];
+      dense.numbers.push_back(static_cast<float>(a + share * (b - a)));
+    }
+  }
+  return dense;
+}
+
+TEST(BoundaryRings, OnePixelIsOneClockwiseSquare) {
+  const MaskCase mask = mask_drawing("", {"...", ".#.", "..."});
+  const std::vector<BoundaryRing> rings = boundary_rings(mask_of(mask.ids));
+  ASSERT_EQ(rings.size(), 1U);
+  EXPECT_FALSE(rings[0].hole);
+  EXPECT_EQ(rings[0].polygon, pixels({{1, 1}, {2, 1}, {2, 2}, {1, 2}}));
+}
+
+TEST(BoundaryRings, AHoleRunsCounterclockwise) {
+  const MaskCase mask = mask_drawing("", {"###", "#.#", "###"});
+  const std::vector<BoundaryRing> rings = boundary_rings(mask_of(mask.ids));
+  ASSERT_EQ(rings.size(), 2U);
+  EXPECT_EQ(rings[0].polygon, pixels({{0, 0}, {3, 0}, {3, 3}, {0, 3}}));
+  EXPECT_TRUE(rings[1].hole);
+  EXPECT_EQ(twice_area(rings[1].polygon), -2 * 100 * 100);
+}
+
+TEST(BoundaryRings, PixelsThatTouchAtACornerAreOneRing) {
+  const MaskCase mask = mask_drawing("", {"#.", ".#"});
+  const std::vector<BoundaryRing> rings = boundary_rings(mask_of(mask.ids));
+  ASSERT_EQ(rings.size(), 1U);
+  EXPECT_EQ(rings[0].polygon,
+            pixels({{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {0, 1}}));
+}
+
+TEST(BoundaryRings, CountsAndAreasAreThoseOfTheMask) {
+  int holes_seen = 0;
+  for (const MaskCase& mask : mask_cases()) {
+    SCOPED_TRACE(mask.name);
+    const Bitmap truth = bitmap_of(mask.ids);
+    int outer = 0;
+    int holes = 0;
+    std::int64_t area = 0;
+    for (const BoundaryRing& ring : boundary_rings(mask_of(mask.ids))) {
+      const std::int64_t twice = twice_area(ring.polygon);
+      ASSERT_EQ(ring.hole, twice < 0);
+      ++(ring.hole ? holes : outer);
+      area += twice;
+      ASSERT_GE(ring.polygon.size(), 4U);
+    }
+    ASSERT_EQ(outer, count_parts(truth));
+    ASSERT_EQ(holes, count_holes(truth));
+    ASSERT_EQ(area, 2 * 100 * 100 * mask_of(mask.ids).area_px());
+    holes_seen += holes;
+  }
+  EXPECT_GT(holes_seen, 1000);
+}
+
+TEST(PartPolygons, AHoleIsReachedByABridgeThatIsWalkedBothWays) {
+  const MaskCase mask = mask_drawing("", {"###", "#.#", "###"});
+  const std::vector<Polygon> polygons = part_polygons(mask_of(mask.ids), kOnPixelEdges);
+  ASSERT_EQ(polygons.size(), 1U);
+  EXPECT_EQ(
+      polygons[0],
+      pixels({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {2, 2}, {2, 0}, {3, 0}, {3, 3}, {0, 3}}));
+}
+
+TEST(PartPolygons, DecodeToExactlyTheMaskOnPixelEdges) {
+  int decoded = 0;
+  for (const MaskCase& mask : mask_cases()) {
+    SCOPED_TRACE(mask.name);
+    const Bitmap truth = bitmap_of(mask.ids);
+    const std::vector<Polygon> polygons = part_polygons(mask_of(mask.ids), kOnPixelEdges);
+    ASSERT_EQ(polygons.size(), static_cast<std::size_t>(count_parts(truth)));
+    for (const Polygon& polygon : polygons) {
+      for (const Vertex& vertex : polygon) {
+        ASSERT_EQ(vertex.x % kVerticesPerPixel, 0);
+        ASSERT_EQ(vertex.y % kVerticesPerPixel, 0);
+      }
+    }
+    const Bitmap found =
+        coco_decoder::bitmap_of_polygons(coordinates(polygons), mask.ids.height, mask.ids.width);
+    ASSERT_EQ(found.values, truth.values);
+    ++decoded;
+  }
+  EXPECT_GE(decoded, 200);
+}
+
+// The decoder above must be able to see an error of one pixel edge, or the test above says nothing.
+TEST(PartPolygons, TheDecoderNoticesARingThatIsOffByOnePixel) {
+  const MaskCase mask = mask_drawing("", {"....", ".##.", ".##.", "...."});
+  std::vector<Polygon> polygons = part_polygons(mask_of(mask.ids), kOnPixelEdges);
+  for (Vertex& vertex : polygons[0]) vertex.x += kVerticesPerPixel;
+  const Bitmap found = coco_decoder::bitmap_of_polygons(coordinates(polygons), 4, 4);
+  EXPECT_NEAR(intersection_over_union(found, bitmap_of(mask.ids)), 1.0 / 3.0, 1e-12);
+}
+
+TEST(WholePolygon, IsEmptyForAnEmptyMask) {
+  const MaskCase mask = mask_drawing("", {"..", ".."});
+  EXPECT_TRUE(whole_polygon(mask_of(mask.ids), kInsidePixelEdges).empty());
+}
+
+TEST(WholePolygon, StandsTwoHundredthsInsideThePixelEdges) {
+  const MaskCase mask = mask_drawing("", {"...", ".#.", "..."});
+  EXPECT_EQ(whole_polygon(mask_of(mask.ids), kInsidePixelEdges),
+            (Polygon{{102, 102}, {198, 102}, {198, 198}, {102, 198}}));
+}
+
+TEST(WholePolygon, JoinsPartsByTheShortestBridge) {
+  const MaskCase mask = mask_drawing("", {"#....", ".....", "..###", "....."});
+  const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges);
+  const Bitmap found = yolo_decoder::bitmap_of_row(yolo_row(polygon, 5, 4), 5, 4);
+  const MaskCase bridged = mask_drawing("", {"#....", ".#...", "..###", "....."});
+  EXPECT_EQ(found.values, bitmap_of(bridged.ids).values);
+}
+
+struct Decoded {
+  int one_part = 0;
+  int several_parts = 0;
+  int with_holes = 0;
+};
+
+/// Every mask through YOLO's arithmetic: exact where no bridge crosses background; everywhere no
+/// pixel of the mask is lost.
+Decoded decode_all(const VertexPlacement& placement, yolo_decoder::ToPixels to_pixels) {
+  Decoded decoded;
+  for (const MaskCase& mask : mask_cases()) {
+    SCOPED_TRACE(mask.name);
+    const Bitmap truth = bitmap_of(mask.ids);
+    const int parts = count_parts(truth);
+    if (parts == 0) continue;
+    const int width = mask.ids.width;
+    const int height = mask.ids.height;
+    const Polygon polygon = whole_polygon(mask_of(mask.ids), placement);
+    EXPECT_GE(polygon.size(), 3U);
+    const yolo_decoder::Row row = yolo_row(polygon, width, height);
+    const Bitmap found = yolo_decoder::bitmap_of_row(row, width, height, to_pixels);
+    for (std::size_t i = 0; i < truth.values.size(); ++i) {
+      if (truth.values[i] != 0 && found.values[i] == 0) {
+        ADD_FAILURE() << "pixel " << i << " is lost";
+        break;
+      }
+    }
+    if (parts == 1) {
+      EXPECT_EQ(found.values, truth.values);
+    }
+    ++(parts == 1 ? decoded.one_part : decoded.several_parts);
+    decoded.with_holes += count_holes(truth) > 0;
+  }
+  return decoded;
+}
+
+TEST(WholePolygon, OnePartDecodesExactlyInALoaderThatTruncates) {
+  const Decoded decoded = decode_all(kInsidePixelEdges, yolo_decoder::ToPixels::kTruncate);
+  EXPECT_GE(decoded.one_part, 80);
+  EXPECT_GE(decoded.several_parts, 80);
+  EXPECT_GE(decoded.with_holes, 80);
+}
+
+/// Whether anywhere two mask pixels touch at a corner and nowhere else.
+bool has_corner_contact(const Bitmap& mask) {
+  for (int row = 0; row + 1 < mask.height; ++row) {
+    for (int column = 0; column + 1 < mask.width; ++column) {
+      const int down = mask.at(row, column) + mask.at(row + 1, column + 1);
+      const int up = mask.at(row + 1, column) + mask.at(row, column + 1);
+      if ((down == 2 && up == 0) || (down == 0 && up == 2)) return true;
+    }
+  }
+  return false;
+}
+
+// ultralytics inserts points between the vertices. Where two pixels touch at a corner only, the
+// outline passes through that corner, and a point that falls on it may be rounded to either side.
+TEST(WholePolygon, ResamplingChangesNothingButWhereOnlyCornersTouch) {
+  int exact = 0;
+  int corner_contacts = 0;
+  for (const MaskCase& mask : mask_cases()) {
+    const Bitmap truth = bitmap_of(mask.ids);
+    if (count_parts(truth) != 1) continue;
+    SCOPED_TRACE(mask.name);
+    const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges);
+    const auto row = yolo_row(polygon, mask.ids.width, mask.ids.height);
+    const Bitmap found =
+        yolo_decoder::bitmap_of_row(resampled(row, 1000), mask.ids.width, mask.ids.height);
+    if (has_corner_contact(truth)) {
+      ASSERT_GE(intersection_over_union(found, truth), 0.94);
+      ++corner_contacts;
+    } else {
+      ASSERT_EQ(found.values, truth.values);
+      ++exact;
+    }
+  }
+  EXPECT_GE(exact, 25);
+  EXPECT_GE(corner_contacts, 40);
+}
+
+TEST(WholePolygon, NearestPlacementDecodesExactlyInLoadersThatTruncateAndThatRound) {
+  EXPECT_GE(decode_all(kNearestToPixels, yolo_decoder::ToPixels::kTruncate).one_part, 80);
+  EXPECT_GE(decode_all(kNearestToPixels, yolo_decoder::ToPixels::kRound).one_part, 80);
+}
+
+TEST(WholePolygon, BoxIsWithinTwoHundredthsOfAPixel) {
+  int checked = 0;
+  for (const MaskCase& mask : mask_cases()) {
+    const Mask view = mask_of(mask.ids);
+    const Polygon polygon = whole_polygon(view, kInsidePixelEdges);
+    if (polygon.empty()) continue;
+    SCOPED_TRACE(mask.name);
+    const auto row = yolo_row(polygon, mask.ids.width, mask.ids.height);
+    const auto box = yolo_decoder::box_of_polygon_row(row, mask.ids.width, mask.ids.height);
+    const PixelBox& truth = view.box();
+    ASSERT_LE(yolo_decoder::box_error(box, truth.x, truth.y, truth.width, truth.height), 0.0201);
+    ++checked;
+  }
+  EXPECT_GE(checked, 200);
+}
+
+// Parts of a size that a camera sees: what bridges cost.
+TEST(WholePolygon, SeveralPartsDecodeWellAtRealisticSizes) {
+  int several = 0;
+  double sum = 0.0;
+  for (std::uint64_t seed = 1000; seed < 1060; ++seed) {
+    const MaskCase mask = random_blobs(seed, 320, 240);
+    const Bitmap truth = bitmap_of(mask.ids);
+    if (count_parts(truth) < 2) continue;
+    SCOPED_TRACE(mask.name);
+    const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges);
+    const Bitmap found = yolo_decoder::bitmap_of_row(yolo_row(polygon, 320, 240), 320, 240);
+    const double iou = intersection_over_union(found, truth);
+    EXPECT_GE(iou, 0.97);
+    sum += iou;
+    ++several;
+  }
+  ASSERT_GE(several, 20);
+  RecordProperty("mean_iou", std::to_string(sum / several));
+  EXPECT_GE(sum / several, 0.99);
+}
+
+}  // namespace
+}  // namespace seedframe
