@@ -150,15 +150,19 @@ Result<std::string> output_of(const std::vector<std::string>& arguments,
   }
   if (*status != 0) {
     return fail(ErrorKind::kEnvironment, "{} {}: {}", fmt::join(arguments, " "),
-                describe_wait_status(status), text.substr(0, 500));
+                describe_wait_status(status),
+                text.substr(text.size() - std::min<std::size_t>(text.size(), 500)));
   }
   return text;
 }
 
 std::vector<std::string> worker_environment(
     const std::vector<std::pair<std::string, std::string>>& changes) {
-  constexpr std::array<std::string_view, 3> kDropped = {"PYTHON", "BLENDER_USER_", "OCIO="};
-  std::vector<std::string> result;
+  // A Blender that uses the system's Python looks for that Python's home along PATH: an active
+  // virtual environment, conda or pyenv would hide numpy from it.
+  constexpr std::array<std::string_view, 4> kDropped = {"PATH=", "PYTHON", "BLENDER_USER_",
+                                                        "OCIO="};
+  std::vector<std::string> result = {"PATH=/usr/bin:/bin"};
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
     const bool changed = std::any_of(changes.begin(), changes.end(), [&](const auto& change) {

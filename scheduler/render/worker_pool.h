@@ -33,7 +33,7 @@ struct PoolOptions {
   int max_unjudged = 64;
 
   /// Set in the workers' environment on top of ours, for example OCIO, or CYCLES_CPU_NO_AVX2 to pin
-  /// the kernel. Of ours, PYTHON*, BLENDER_*, CYCLES_* and OCIO are not handed on.
+  /// the kernel. Of ours, PATH, PYTHON*, BLENDER_USER_* and OCIO are not handed on.
   std::map<std::string, std::string> environment;
 };
 

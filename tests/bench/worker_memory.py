@@ -36,6 +36,7 @@ class Worker:
             [blender, "--background", "--factory-startup", "--disable-autoexec", "-noaudio", "--threads",
              str(threads), "--python-exit-code", "3", "--python", str(SCRIPTS / "render_worker.py"), "--",
              "--read-fd", fd, "--write-fd", fd],
+            env={**os.environ, "PATH": "/usr/bin:/bin"},  # as the scheduler does
             pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, stdout=log, stderr=log)
         theirs.close()
         self._socket = ours
@@ -134,7 +135,7 @@ def random_spec(draw, mesh_names, size=128, samples=1, instances=12, materials=1
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--frames", type=int, default=1000)
-    parser.add_argument("--blender", default="blender")
+    parser.add_argument("--blender", default="/usr/bin/blender")
     options = parser.parse_args()
     draw = random.Random(1)
     sizes, builds, renders = {}, [], []

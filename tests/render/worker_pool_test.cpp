@@ -199,6 +199,7 @@ TEST_F(PoolTest, AWornWorkerIsReplaced) {
 TEST_F(PoolTest, TheWorkersEnvironmentIsSanitised) {
   setenv("PYTHONPATH", "/somewhere/else", 1);
   setenv("OCIO", "/somewhere/config.ocio", 1);
+  setenv("SEEDFRAME_OTHER", "kept", 1);
   const auto script = folder / "env_blender";
   std::ofstream(script) << "#!/bin/sh\nenv\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
@@ -212,6 +213,9 @@ TEST_F(PoolTest, TheWorkersEnvironmentIsSanitised) {
   std::ifstream log(folder / "worker-0.log");
   const std::string text(std::istreambuf_iterator<char>(log), {});
   EXPECT_THAT(text, HasSubstr("CYCLES_CPU_NO_AVX2=1"));
+  EXPECT_THAT(text, HasSubstr("SEEDFRAME_OTHER=kept"));
+  EXPECT_THAT(text, HasSubstr("PATH=/usr/bin:/bin\n"))
+      << "a virtual environment would mislead Blender";
   EXPECT_THAT(text, Not(HasSubstr("PYTHONPATH")));
   EXPECT_THAT(text, Not(HasSubstr("OCIO=")));
 }
