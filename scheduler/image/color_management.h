@@ -12,7 +12,8 @@
 
 namespace seedframe {
 
-/// Names as in the OCIO config; the exposure multiplies by 2^stops before, the gamma applies after the view.
+/// Names as in the OCIO config; the exposure multiplies by 2^stops before, the gamma applies after
+/// the view.
 struct ViewSettings {
   std::string display;
   std::string view;
@@ -21,7 +22,8 @@ struct ViewSettings {
   double gamma = 1.0;
 };
 
-/// An OCIO config, loaded once. Thread-safe.
+/// An OCIO config, loaded once. Thread-safe. The first picture of a display, view and look builds
+/// their tables (up to 50 ms); exposure and gamma may then change from picture to picture for free.
 class ColorManagement {
  public:
   /// kInput errors: not a config, or one that OCIO cannot read.
@@ -30,13 +32,16 @@ class ColorManagement {
   ColorManagement(ColorManagement&&) noexcept;
   ColorManagement& operator=(ColorManagement&&) noexcept;
 
-  /// An error with "did you mean" when the config has no such display, view or look.
+  /// kInput errors: a display, view or look that the config does not have, with "did you mean"; an
+  /// exposure or gamma that is no usable number.
   Status check(const ViewSettings& settings) const;
 
-  /// RGBA scene-linear float (premultiplied) to 8-bit RGB as Blender would save it, without dithering.
-  Result<Image<std::uint8_t>> apply(const Image<float>& combined, const ViewSettings& settings) const;
+  /// RGBA scene-linear float to 8-bit RGB, as Blender would save an opaque film without dithering:
+  /// exposure, look, view, gamma, then round(255 v). Alpha is ignored. Errors: those of check().
+  Result<Image<std::uint8_t>> apply(const Image<float>& combined,
+                                    const ViewSettings& settings) const;
 
-  /// SHA-256 of the config file.
+  /// SHA-256 of the config file; the tables that it names beside it are not part of it.
   const std::string& config_hash() const;
 
  private:

@@ -1,4 +1,5 @@
-// Single-layer float EXR files for depth and normals: what users load without knowing Blender's layers.
+// Single-layer float EXR files for depth and normals: what users load without knowing Blender's
+// layers.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +11,8 @@
 
 namespace seedframe {
 
-/// Writes 32-bit float channels (names such as {"Z"} or {"X","Y","Z"}), ZIP-compressed, without any date or
-/// host in the header, and forces the file to the disk.
+/// Writes 32-bit float channels (names such as {"Z"} or {"X","Y","Z"}), ZIP-compressed, without any
+/// date or host in the header, and forces the file to the disk.
 Status write_exr(const std::filesystem::path& path, const Image<float>& image,
                  const std::vector<std::string>& channels);
 

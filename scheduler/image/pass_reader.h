@@ -22,17 +22,21 @@ struct PassExpectation {
 };
 
 struct FramePasses {
-  Image<float> combined;             ///< RGBA, scene-linear Rec.709, premultiplied alpha
-  Image<std::uint16_t> instance_ids; ///< 0 is background
-  std::optional<Image<float>> depth; ///< planar, metres along the viewing axis
-  std::optional<Image<float>> normal;///< x, y, z in the camera's frame
-  /// SHA-256 of each pass's pixels by name ("combined", "index", "depth", "normal"): see pixel_hash.h.
+  Image<float> combined;               ///< RGBA, scene-linear Rec.709, premultiplied alpha
+  Image<std::uint16_t> instance_ids;   ///< 0 is background
+  std::optional<Image<float>> depth;   ///< planar, metres along the viewing axis
+  std::optional<Image<float>> normal;  ///< x, y, z in the camera's frame
+  /// SHA-256 of each pass's pixels by name ("combined", "index", "depth", "normal"): see
+  /// pixel_hash.h.
   std::map<std::string, std::string> pixel_hashes;
 };
 
-/// kRender errors: a missing or cut file, a missing layer, another size, NaN or infinite values
-/// (Depth may be the renderer's background value), an index that is fractional, negative or above
-/// max_instance_id. Each names the file, the pass and the first bad pixel.
+/// Passes are found by the end of their channels' names, whatever the view layer is called.
+/// kRender errors: a missing, cut or damaged file, a missing layer or two that could be meant,
+/// another size, lossy compression, NaN or infinite values (the depth of the background is a
+/// number, 1e10 in Blender), an index that is fractional, negative or above max_instance_id. Each
+/// names the file, the pass and the first bad pixel. A lying header is refused before it gets
+/// memory.
 Result<FramePasses> read_passes(const std::filesystem::path& path, const PassExpectation& expected);
 
 }  // namespace seedframe

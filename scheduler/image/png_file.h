@@ -1,4 +1,5 @@
-// PNG in and out: 8-bit RGB and 8- or 16-bit grey, no time chunk, no gamma tricks: the same pixels give the same bytes.
+// PNG in and out: 8-bit RGB and 8- or 16-bit grey, no time chunk, no gamma tricks: the same pixels
+// give the same bytes (with the same zlib).
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,8 @@
 
 namespace seedframe {
 
-/// The bytes of a PNG file. image.channels: 1 (grey) or 3 (RGB, marked sRGB) for uint8; 1 for uint16.
+/// The bytes of a PNG file. image.channels: 1 (grey) or 3 (RGB, marked sRGB) for uint8; 1 for
+/// uint16.
 std::string encode_png(const Image<std::uint8_t>& image);
 std::string encode_png(const Image<std::uint16_t>& image);
 
