@@ -24,25 +24,27 @@ bool has_look(const ViewSettings& settings) {
   return !settings.look.empty() && settings.look != "None";
 }
 
-std::vector<std::string> displays(const OCIO::Config& config) {
-  std::vector<std::string> names;
-  names.reserve(static_cast<std::size_t>(config.getNumDisplays()));
-  for (int i = 0; i < config.getNumDisplays(); ++i) names.emplace_back(config.getDisplay(i));
-  return names;
-}
+/// What settings may name. Read once, by one thread: OpenColorIO 2.1 fills such lists when they are
+/// first asked for, and without a lock.
+struct Names {
+  std::vector<std::string> displays;
+  std::map<std::string, std::vector<std::string>> views;  ///< by display
+  std::vector<std::string> looks = {"None"};
+};
 
-std::vector<std::string> views(const OCIO::Config& config, const std::string& display) {
-  std::vector<std::string> names;
-  names.reserve(static_cast<std::size_t>(config.getNumViews(display.c_str())));
-  for (int i = 0; i < config.getNumViews(display.c_str()); ++i) {
-    names.emplace_back(config.getView(display.c_str(), i));
+Names read_names(const OCIO::Config& config) {
+  Names names;
+  for (int i = 0; i < config.getNumDisplays(); ++i) {
+    const char* display = config.getDisplay(i);
+    names.displays.emplace_back(display);
+    std::vector<std::string>& views = names.views[display];
+    for (int j = 0; j < config.getNumViews(display); ++j) {
+      views.emplace_back(config.getView(display, j));
+    }
   }
-  return names;
-}
-
-std::vector<std::string> looks(const OCIO::Config& config) {
-  std::vector<std::string> names = {"None"};
-  for (int i = 0; i < config.getNumLooks(); ++i) names.emplace_back(config.getLookNameByIndex(i));
+  for (int i = 0; i < config.getNumLooks(); ++i) {
+    names.looks.emplace_back(config.getLookNameByIndex(i));
+  }
   return names;
 }
 
@@ -101,18 +103,26 @@ struct ColorManagement::State {
 
   std::string path;
   std::string hash;
+  Names names;
+  std::mutex mutex;  ///< for what follows
   OCIO::ConstConfigRcPtr config;
-  std::mutex mutex;
   std::map<Key, OCIO::ConstCPUProcessorRcPtr> processors;
 
   /// Only the tables of look and view are worth keeping (tens of ms). Exposure and gamma may differ
   /// in every frame, so they stay out of the cache: it cannot outgrow the names in the config.
-  OCIO::ConstCPUProcessorRcPtr processor(const ViewSettings& settings) {
+  OCIO::ConstCPUProcessorRcPtr view_processor(const ViewSettings& settings) {
     const Key key{settings.display, settings.view, has_look(settings) ? settings.look : ""};
     const std::lock_guard lock(mutex);
     OCIO::ConstCPUProcessorRcPtr& cached = processors[key];
     if (!cached) cached = look_and_view(config, settings);
     return cached;
+  }
+
+  /// Null for a gamma of 1.
+  OCIO::ConstCPUProcessorRcPtr gamma_processor(double gamma) {
+    if (gamma == 1.0) return nullptr;
+    const std::lock_guard lock(mutex);
+    return display_gamma(config, gamma);
   }
 };
 
@@ -132,6 +142,7 @@ Result<ColorManagement> ColorManagement::load(const std::filesystem::path& ocio_
     // OpenColorIO would keep every processor that it ever made, one for each gamma.
     config->setProcessorCacheFlags(OCIO::PROCESSOR_CACHE_OFF);
     config->validate();
+    state->names = read_names(*config);
     state->config = config;
   } catch (const std::exception& exception) {
     return fail(ErrorKind::kInput, "{} is not an OCIO config that OpenColorIO {} can read: {}",
@@ -141,15 +152,12 @@ Result<ColorManagement> ColorManagement::load(const std::filesystem::path& ocio_
 }
 
 Status ColorManagement::check(const ViewSettings& settings) const {
-  const OCIO::Config& config = *state_->config;
-  if (Status known = check_name("display", settings.display, displays(config)); !known) {
-    return known;
-  }
-  if (Status known = check_name("view", settings.view, views(config, settings.display)); !known) {
-    return known;
-  }
+  const Names& names = state_->names;
+  if (Status known = check_name("display", settings.display, names.displays); !known) return known;
+  const std::vector<std::string>& views = names.views.at(settings.display);
+  if (Status known = check_name("view", settings.view, views); !known) return known;
   if (has_look(settings)) {
-    if (Status known = check_name("look", settings.look, looks(config)); !known) return known;
+    if (Status known = check_name("look", settings.look, names.looks); !known) return known;
   }
   if (!std::isfinite(settings.exposure_stops)) {
     return fail(ErrorKind::kInput, "the exposure must be a finite number of stops, not {}",
@@ -169,9 +177,8 @@ Result<Image<std::uint8_t>> ColorManagement::apply(const Image<float>& combined,
   const auto row_values = static_cast<std::size_t>(combined.width) * kRgba;
   const auto scale = static_cast<float>(portable::pow(2.0, settings.exposure_stops));
   try {
-    const OCIO::ConstCPUProcessorRcPtr view = state_->processor(settings);
-    OCIO::ConstCPUProcessorRcPtr gamma;
-    if (settings.gamma != 1.0) gamma = display_gamma(state_->config, settings.gamma);
+    const OCIO::ConstCPUProcessorRcPtr view = state_->view_processor(settings);
+    const OCIO::ConstCPUProcessorRcPtr gamma = state_->gamma_processor(settings.gamma);
     // Row by row: a row stays in the cache from the first step to the rounding. Exposure, look,
     // view, gamma is the order of Blender's own display transform.
     std::vector<float> row(row_values);

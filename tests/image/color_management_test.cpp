@@ -186,6 +186,8 @@ TEST_F(ColorManagementTest, ThreadsShareIt) {
     threads.emplace_back([&, thread] {
       for (int i = 0; i < 20; ++i) {
         const char* view = (thread + i) % 2 == 0 ? "Plain" : "Root";
+        const double stops = i % 3, gamma = 1.0 + 0.5 * (i % 2);
+        ASSERT_TRUE(colors.apply(image, {"screen", view, "Half", stops, gamma}));
         const auto picture = colors.apply(image, {"screen", view, ""});
         const int expected = (thread + i) % 2 == 0 ? 64 : 128;
         if (!picture || picture->at(63, 63, 2) != expected) ++wrong;
