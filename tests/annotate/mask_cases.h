@@ -1,10 +1,13 @@
 // Masks that have caught polygon and run-length code out, as instance-id images for the tests.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "annotate/extents.h"
@@ -108,6 +111,83 @@ inline int count_holes(const Bitmap& bitmap) {
     }
   }
   return count_regions(framed, 0, 4) - 1;
+}
+
+/// How a decoded mask differs from the true one.
+struct Difference {
+  int lost = 0;   ///< pixels of the mask that are missing
+  int added = 0;  ///< pixels that are not the mask's
+};
+
+inline Difference difference(const Bitmap& decoded, const Bitmap& truth) {
+  Difference found;
+  for (std::size_t i = 0; i < truth.values.size(); ++i) {
+    found.lost += truth.values[i] != 0 && decoded.values[i] == 0;
+    found.added += truth.values[i] == 0 && decoded.values[i] != 0;
+  }
+  return found;
+}
+
+/// Each 8-connected part's pixels that have a 4-neighbour outside of the mask.
+inline std::vector<std::vector<std::pair<int, int>>> part_outlines(const Bitmap& bitmap) {
+  std::vector<std::vector<std::pair<int, int>>> parts;
+  const auto inside = [&bitmap](int r, int c) {
+    return r >= 0 && c >= 0 && r < bitmap.height && c < bitmap.width && bitmap.at(r, c) != 0;
+  };
+  Bitmap seen(bitmap.width, bitmap.height);
+  for (int r0 = 0; r0 < bitmap.height; ++r0) {
+    for (int c0 = 0; c0 < bitmap.width; ++c0) {
+      if (!inside(r0, c0) || seen.at(r0, c0) != 0) continue;
+      parts.emplace_back();
+      std::vector<std::pair<int, int>> open = {{r0, c0}};
+      seen.at(r0, c0) = 1;
+      while (!open.empty()) {
+        const auto [r, c] = open.back();
+        open.pop_back();
+        if (!inside(r - 1, c) || !inside(r + 1, c) || !inside(r, c - 1) || !inside(r, c + 1)) {
+          parts.back().emplace_back(r, c);
+        }
+        for (int i = 0; i < 9; ++i) {
+          const int row = r + i / 3 - 1;
+          const int column = c + i % 3 - 1;
+          if (!inside(row, column) || seen.at(row, column) != 0) continue;
+          seen.at(row, column) = 1;
+          open.emplace_back(row, column);
+        }
+      }
+    }
+  }
+  return parts;
+}
+
+/// The least number of background pixels under straight lines that join all parts of a mask, found
+/// by trying every pair of pixels (Prim's algorithm). 0 for one part.
+inline int shortest_bridges(const Bitmap& bitmap) {
+  const auto parts = part_outlines(bitmap);
+  const auto gap = [&parts](std::size_t a, std::size_t b) {
+    int least = 1 << 30;
+    for (const auto& [r0, c0] : parts[a]) {
+      for (const auto& [r1, c1] : parts[b]) {
+        least = std::min(least, std::max(std::abs(r0 - r1), std::abs(c0 - c1)) - 1);
+      }
+    }
+    return least;
+  };
+  std::vector<int> gaps(parts.size(), 1 << 30);
+  std::vector<bool> joined(parts.size(), false);
+  int sum = 0;
+  for (std::size_t count = 0, part = 0; count + 1 < parts.size(); ++count) {
+    joined[part] = true;
+    std::size_t next = parts.size();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (joined[i]) continue;
+      gaps[i] = std::min(gaps[i], gap(part, i));
+      if (next == parts.size() || gaps[i] < gaps[next]) next = i;
+    }
+    sum += gaps[next];
+    part = next;
+  }
+  return sum;
 }
 
 inline bool in_disc(int row, int column, double y, double x, double radius) {

@@ -1,0 +1,110 @@
+#include "export/dataset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "synthetic_dataset.h"
+
+namespace seedframe {
+namespace {
+
+using ::testing::HasSubstr;
+
+class LoadFrame : public ::testing::Test {
+ protected:
+  LoadFrame() : campaign_(scratch_.path()) {
+    IdImage ids(12, 10);
+    ids.at(2, 3) = ids.at(2, 4) = 3;
+    ids.at(7, 7) = 4;
+    campaign_.add_frame(17, 2, ids);
+  }
+
+  Result<LoadedFrame> load() const {
+    return load_frame(campaign_.dataset(), campaign_.dataset().frames.at(0));
+  }
+  fs::path file(const char* name) const { return campaign_.frame_folder(17) / name; }
+
+  /// Changes labels.json through its JSON.
+  template <class F>
+  void edit_labels(F edit) {
+    Json json = *parse_json(*read_file(file(frame_files::kLabels)), "labels");
+    edit(json);
+    ASSERT_TRUE(write_file(file(frame_files::kLabels), readable_json(json)));
+  }
+
+  void expect_corrupt(const std::vector<std::string>& words) const {
+    const auto loaded = load();
+    ASSERT_FALSE(loaded);
+    EXPECT_EQ(loaded.error().kind, ErrorKind::kCorrupt);
+    EXPECT_THAT(loaded.error().message, HasSubstr("frame 17"));
+    for (const std::string& word : words) EXPECT_THAT(loaded.error().message, HasSubstr(word));
+  }
+
+  ScratchFolder scratch_;
+  SyntheticDataset campaign_;
+};
+
+TEST_F(LoadFrame, ReturnsTheLabelsAndTheIds) {
+  const auto loaded = load();
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->instance_ids.values, campaign_.truth(17).ids.values);
+  EXPECT_EQ(to_json(loaded->labels), to_json(campaign_.truth(17).labels));
+}
+
+TEST_F(LoadFrame, NoticesAnotherArea) {
+  edit_labels([](Json& json) { json["instances"][0]["area_px"] = 1; });
+  expect_corrupt({"instance 3", "'bolt/0'", "1 pixels", "instances.png has 2"});
+}
+
+TEST_F(LoadFrame, NoticesAnotherBox) {
+  edit_labels([](Json& json) { json["instances"][0]["box"] = {3, 2, 2, 2}; });
+  expect_corrupt({"instance 3", "[3, 2, 2, 2]", "[3, 2, 2, 1]"});
+}
+
+TEST_F(LoadFrame, NoticesAnInstanceThatTheLabelsDoNotKnow) {
+  edit_labels([](Json& json) { json["instances"].erase(0); });
+  expect_corrupt({"instance 3", "2 pixels"});
+}
+
+TEST_F(LoadFrame, NoticesAnInstanceThatTheImageDoesNotHave) {
+  IdImage ids(12, 10);
+  ids.at(2, 3) = ids.at(2, 4) = 3;
+  ASSERT_TRUE(write_file(file(frame_files::kInstances), encode_png(ids)));
+  expect_corrupt({"instance 4", "'rock/0'", "instances.png has 0"});
+}
+
+TEST_F(LoadFrame, NoticesAnotherSize) {
+  edit_labels([](Json& json) { json["width"] = 13; });
+  expect_corrupt({"13x10", "12x10"});
+}
+
+TEST_F(LoadFrame, NoticesACategoryThatTheCampaignDoesNotHave) {
+  edit_labels([](Json& json) { json["instances"][0]["category"] = 5; });
+  expect_corrupt({"instance 3", "category 5", "has 4"});
+}
+
+TEST_F(LoadFrame, NoticesLabelsThatAreCut) {
+  const std::string text = *read_file(file(frame_files::kLabels));
+  for (const std::size_t length : {std::size_t{0}, std::size_t{1}, text.size() / 2}) {
+    ASSERT_TRUE(write_file(file(frame_files::kLabels), text.substr(0, length)));
+    expect_corrupt({"labels.json"});
+  }
+}
+
+TEST_F(LoadFrame, NoticesMissingFiles) {
+  const std::string labels = *read_file(file(frame_files::kLabels));
+  fs::remove(file(frame_files::kLabels));
+  auto loaded = load();
+  ASSERT_FALSE(loaded);
+  EXPECT_THAT(loaded.error().message, HasSubstr("frame 17"));
+  EXPECT_THAT(loaded.error().message, HasSubstr("labels.json"));
+  ASSERT_TRUE(write_file(file(frame_files::kLabels), labels));
+  fs::remove(file(frame_files::kInstances));
+  loaded = load();
+  ASSERT_FALSE(loaded);
+  EXPECT_THAT(loaded.error().message, HasSubstr("frame 17"));
+  EXPECT_THAT(loaded.error().message, HasSubstr("instances.png"));
+}
+
+}  // namespace
+}  // namespace seedframe
