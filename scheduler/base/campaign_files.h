@@ -1,4 +1,5 @@
-// Every file and folder name of a campaign, built and parsed in one place (docs/formats/campaign.md).
+// Every file and folder name of a campaign, built and parsed in one place
+// (docs/formats/campaign.md).
 #pragma once
 
 #include <cstdint>

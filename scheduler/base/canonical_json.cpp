@@ -18,9 +18,8 @@ void append_number(std::string& out, double value) {
   std::array<char, 40> text{};
   constexpr double kLargestExactInteger = 9007199254740992.0;
   const bool whole = value == std::floor(value) && std::abs(value) < kLargestExactInteger;
-  const auto end =
-      whole ? std::to_chars(text.begin(), text.end(), static_cast<long long>(value))
-            : std::to_chars(text.begin(), text.end(), value);
+  const auto end = whole ? std::to_chars(text.begin(), text.end(), static_cast<long long>(value))
+                         : std::to_chars(text.begin(), text.end(), value);
   out.append(text.data(), end.ptr);
 }
 

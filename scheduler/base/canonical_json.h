@@ -1,9 +1,10 @@
 // One text for one value: the JSON that is hashed and stored.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 
@@ -16,7 +17,8 @@ using Json = nlohmann::json;
 /// JSON: they are a programmer's mistake here and abort.
 std::string canonical_json(const Json& value);
 
-/// The same value laid out for people, two spaces a level, with the same numbers; ends in a newline.
+/// The same value laid out for people, two spaces a level, with the same numbers; ends in a
+/// newline.
 std::string readable_json(const Json& value);
 
 /// Parses text; `what` names it in the error.

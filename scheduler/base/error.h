@@ -1,11 +1,11 @@
 // Expected failures are values: Result<T> is a T or an Error that a stranger can act on.
 #pragma once
 
-#include <fmt/core.h>
-
 #include <string>
-#include <tl/expected.hpp>
 #include <utility>
+
+#include <fmt/core.h>
+#include <tl/expected.hpp>
 
 namespace seedframe {
 

@@ -1,4 +1,5 @@
-// Reading whole files, and writing files and folders so that a crash leaves the old one or the new one.
+// Reading whole files, and writing files and folders so that a crash leaves the old one or the new
+// one.
 #pragma once
 
 #include <filesystem>

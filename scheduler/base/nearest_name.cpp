@@ -1,8 +1,8 @@
 #include "base/nearest_name.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace seedframe {
 namespace {

@@ -1,8 +1,8 @@
 #include "base/philox.h"
 
-#include <Random123/philox.h>
-
 #include <string>
+
+#include <Random123/philox.h>
 
 #include "base/sha256.h"
 

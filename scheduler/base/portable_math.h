@@ -2,8 +2,8 @@
 //
 // glibc picks other code for double sin, cos, exp, log and pow on CPUs with fused multiply-add, and
 // the last bit may differ. Its long double functions have one version on x86-64; rounding their
-// 64-bit significand to double hides their own last-bit errors nearly always. Everything that ends in
-// a frame spec computes with these, so frame ids are the same on every x86-64 machine.
+// 64-bit significand to double hides their own last-bit errors nearly always. Everything that ends
+// in a frame spec computes with these, so frame ids are the same on every x86-64 machine.
 #pragma once
 
 #include <cmath>

@@ -1,11 +1,11 @@
 #include "base/sha256.h"
 
-#include <openssl/evp.h>
-
 #include <array>
 #include <cassert>
 #include <cstdio>
 #include <vector>
+
+#include <openssl/evp.h>
 
 namespace seedframe {
 

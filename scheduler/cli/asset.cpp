@@ -1,5 +1,3 @@
-#include "cli/asset.h"
-
 #include <cctype>
 #include <cstdio>
 #include <memory>
@@ -12,6 +10,7 @@
 
 #include "base/canonical_json.h"
 #include "cli/home.h"
+#include "cli/verb.h"
 #include "geometry/asset_files.h"
 #include "geometry/asset_library.h"
 

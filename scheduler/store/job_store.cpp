@@ -182,6 +182,12 @@ Status JobStore::reset(std::int64_t frame) {
   return update.bind(1, frame).run();
 }
 
+Status JobStore::adopt(std::int64_t frame, const std::string& pixel_hash) {
+  Statement update(database_->connection,
+                   "UPDATE frames SET state = 'done', pixel_hash = ?, error = '' WHERE frame = ?");
+  return update.bind(1, pixel_hash).bind(2, frame).run();
+}
+
 Status JobStore::attempt_started(std::int64_t frame, int attempt, int worker, double unix_time) {
   return database_->transaction([&]() -> Status {
     Statement insert(database_->connection,

@@ -75,6 +75,8 @@ class JobStore {
   Status reset_running();
   /// Makes a frame pending again, whatever it was.
   Status reset(std::int64_t frame);
+  /// A frame found complete on disk becomes done.
+  Status adopt(std::int64_t frame, const std::string& pixel_hash);
   Status attempt_started(std::int64_t frame, int attempt, int worker, double unix_time);
   Status frame_done(std::int64_t frame, int attempt, const std::string& pixel_hash,
                     const AttemptTimings& timings);

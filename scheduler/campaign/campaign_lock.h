@@ -1,0 +1,27 @@
+// One scheduler per campaign.
+#pragma once
+
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace seedframe {
+
+/// Holds an flock on campaign.lock; the system lets go of it when the process ends, however it
+/// ends, so a dead scheduler leaves no lock behind.
+class CampaignLock {
+ public:
+  /// kInput error when another process holds it.
+  static Result<CampaignLock> acquire(const std::filesystem::path& file);
+  ~CampaignLock();
+  CampaignLock(CampaignLock&& other) noexcept : descriptor_(other.descriptor_) {
+    other.descriptor_ = -1;
+  }
+  CampaignLock& operator=(CampaignLock&&) = delete;
+
+ private:
+  explicit CampaignLock(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_;
+};
+
+}  // namespace seedframe

@@ -1,0 +1,171 @@
+#include "campaign/campaign_run.h"
+
+#include <set>
+
+#include "base/files.h"
+#include "campaign/color_config.h"
+
+namespace seedframe {
+namespace fs = std::filesystem;
+namespace {
+
+// Finishing a frame takes a small share of rendering it; two threads hide the waiting for the disk.
+constexpr int kFinishThreads = 2;
+
+PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) {
+  PoolOptions pool;
+  pool.blender = options.blender.program;
+  pool.scripts = options.scripts;
+  pool.log_path = [files](int worker) { return files.worker_log(worker); };
+  pool.workers = options.workers;
+  pool.threads = options.threads;
+  pool.max_attempts = options.max_attempts;
+  pool.frame_timeout = options.frame_timeout;
+  return pool;
+}
+
+double unix_time() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+ViewSettings view_settings(const ImageConfig& image) {
+  return {image.display, image.view, image.look, image.exposure_stops, image.gamma};
+}
+
+}  // namespace
+
+Result<ColorManagement> load_color_management(const CampaignConfig& config,
+                                              const BlenderInfo& blender) {
+  Result<fs::path> path = config.image.ocio_config
+                              ? Result<fs::path>(*config.image.ocio_config)
+                              : find_ocio_config(blender.program, blender.major, blender.minor);
+  if (!path) return forward_error(path);
+  Result<ColorManagement> color = ColorManagement::load(*path);
+  if (!color) return color;
+  if (Status known = color->check(view_settings(config.image)); !known) {
+    return fail(ErrorKind::kInput, "{}: {}",
+                config.image.place.file.empty() ? "image" : config.image.place.text(),
+                known.error().message);
+  }
+  return color;
+}
+
+CampaignRun::CampaignRun(Campaign& campaign, PreparedCampaign& prepared,
+                         const ColorManagement& color, Provenance& provenance,
+                         const RunOptions& options, RunObserver& observer)
+    : campaign_(campaign),
+      prepared_(prepared),
+      color_(color),
+      provenance_(provenance),
+      observer_(observer),
+      queue_(std::make_unique<FinishQueue>(kFinishThreads)),
+      pool_(std::make_unique<WorkerPool>(pool_options(options, campaign.files), *this)) {}
+
+CampaignRun::~CampaignRun() { queue_.reset(); }
+
+Result<RunSummary> CampaignRun::run(const std::vector<PendingFrame>& frames) {
+  for (const fs::path& folder : {campaign_.files.logs(), campaign_.files.work() / "meshes",
+                                 campaign_.files.work() / "attempts"}) {
+    if (Status made = make_folders(folder); !made) return forward_error(made);
+  }
+  Result<RunSummary> summary = pool_->run(frames);
+  queue_.reset();  // waits for what is being finished
+  std::error_code ignored;
+  fs::remove_all(campaign_.files.work(), ignored);
+  if (!error_) return forward_error(error_);
+  return summary;
+}
+
+Result<RenderRequest> CampaignRun::request(const FrameJob& job) {
+  Result<ExpandedFrame> expanded = prepared_.expander.expand(job.frame);
+  if (!expanded) return forward_error(expanded);
+  const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
+  if (Status made = make_folders(attempt); !made) return forward_error(made);
+  RenderRequest request;
+  request.spec = canonical_json(to_json(expanded->spec));
+  std::error_code ignored;
+  request.output = fs::absolute(rendered_passes(attempt), ignored);
+  auto meshes = write_mesh_buffers(expanded->spec);
+  if (!meshes) return forward_error(meshes);
+  request.meshes = std::move(*meshes);
+  for (const MaterialSpec& material : expanded->spec.materials) {
+    for (const auto& texture : material.textures) {
+      const fs::path& file = prepared_.expander.textures().at(texture.second);
+      request.textures[texture.second] = fs::absolute(file, ignored);
+    }
+  }
+  tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), attempt,
+                 campaign_.files.frame(job.frame)};
+  return request;
+}
+
+Result<std::map<std::string, fs::path>> CampaignRun::write_mesh_buffers(const FrameSpec& spec) {
+  std::map<std::string, fs::path> paths;
+  std::error_code error;
+  for (const InstanceSpec& instance : spec.instances) {
+    if (paths.contains(instance.mesh)) continue;
+    const fs::path path = campaign_.files.mesh_buffer(instance.mesh);
+    if (!fs::exists(path, error)) {
+      const auto& buffer = prepared_.expander.mesh_buffers().at(instance.mesh);
+      if (Status written = write_file_atomically(path, *buffer); !written) {
+        return forward_error(written);
+      }
+    }
+    paths[instance.mesh] = fs::absolute(path, error);
+  }
+  return paths;
+}
+
+void CampaignRun::started(const FrameJob& job, int worker) {
+  const std::lock_guard lock(mutex_);
+  keep_error(campaign_.store.attempt_started(job.frame, job.attempt, worker, unix_time()));
+}
+
+void CampaignRun::rendered(const FrameJob& job, const RenderTimings& timings, int) {
+  const auto task = tasks_.find(job);
+  queue_->push(
+      [this, job, timings, task = std::move(task->second)] { finish(job, timings, task); });
+  tasks_.erase(task);
+}
+
+void CampaignRun::finish(const FrameJob& job, const RenderTimings& timings,
+                         const FinishTask& task) {
+  const auto start = std::chrono::steady_clock::now();
+  const Result<std::string> pixel_hash = finish_frame(task, color_);
+  const std::chrono::duration<double> finish_time = std::chrono::steady_clock::now() - start;
+  if (!pixel_hash) {
+    pool_->post_verdict(job, forward_error(pixel_hash));
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    keep_error(
+        campaign_.store.frame_done(job.frame, job.attempt, *pixel_hash,
+                                   {timings.build_s, timings.render_s, finish_time.count()}));
+    observer_.frame_done(job.frame);
+  }
+  pool_->post_verdict(job, {});
+}
+
+void CampaignRun::attempt_failed(const FrameJob& job, const std::string& message, bool final) {
+  tasks_.erase(job);
+  std::error_code ignored;
+  fs::remove_all(campaign_.files.attempt(job.frame, job.attempt), ignored);
+  const std::lock_guard lock(mutex_);
+  keep_error(campaign_.store.attempt_failed(job.frame, job.attempt, message, final));
+  observer_.attempt_failed(job, message, final);
+}
+
+void CampaignRun::worker_ready(int, const ReadyMessage& ready) {
+  const Status written = provenance_.add_worker(ready);
+  const std::lock_guard lock(mutex_);
+  keep_error(written);
+}
+
+void CampaignRun::keep_error(const Status& status) {
+  if (status) return;
+  if (error_) error_ = status;
+  pool_->drain();
+}
+
+}  // namespace seedframe

@@ -1,0 +1,40 @@
+// manifest.json: what a committed frame consists of (docs/formats/manifest.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "base/canonical_json.h"
+#include "base/error.h"
+
+namespace seedframe {
+
+struct Manifest {
+  struct File {
+    std::uint64_t bytes = 0;
+    std::string sha256;
+  };
+  std::string frame_id;
+  std::map<std::string, std::string> pixel_hashes;  ///< by pass; "image" for image.png
+  std::map<std::string, File> files;                ///< all but the manifest itself
+
+  /// SHA-256 over the canonical JSON of pixel_hashes: the frame's part of the dataset hash.
+  std::string pixel_hash() const;
+};
+
+Json to_json(const Manifest& manifest);
+Result<Manifest> read_manifest(const std::filesystem::path& frame_folder);
+
+enum class VerifyDepth {
+  kSizes,     ///< every file is there and has its size
+  kContents,  ///< and its SHA-256
+};
+
+/// Checks a committed frame; the error (kCorrupt) names the first file that is not as it was
+/// written.
+Result<Manifest> verify_frame(const std::filesystem::path& frame_folder,
+                              const std::string& frame_id, VerifyDepth depth);
+
+}  // namespace seedframe

@@ -1,0 +1,129 @@
+// seedframe doctor: is everything here that rendering needs?
+
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "base/sha256.h"
+#include "campaign/color_config.h"
+#include "campaign/prepared_campaign.h"
+#include "campaign/provenance.h"
+#include "cli/exit_code.h"
+#include "cli/home.h"
+#include "cli/verb.h"
+#include "geometry/asset_library.h"
+#include "image/color_management.h"
+#include "render/blender_info.h"
+#include "scene/material_library.h"
+
+namespace seedframe {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DoctorArguments {
+  std::string blender = "blender";
+};
+
+/// Prints one finding a line and remembers whether any was bad.
+class Findings {
+ public:
+  void good(const std::string& what, const std::string& text) {
+    fmt::print("ok    {:<12} {}\n", what, text);
+  }
+  void bad(const std::string& what, const std::string& text) {
+    fmt::print("FAIL  {:<12} {}\n", what, text);
+    any_bad_ = true;
+  }
+  bool any_bad() const { return any_bad_; }
+
+ private:
+  bool any_bad_ = false;
+};
+
+void examine_blender(const std::string& program, Findings& findings) {
+  const Result<BlenderInfo> blender = probe_blender(program);
+  if (!blender) {
+    findings.bad("Blender", blender.error().message);
+    return;
+  }
+  findings.good("Blender", fmt::format("{} at {}{}", blender->version, blender->program.string(),
+                                       blender->tested ? "" : " (not a version we test with)"));
+  const auto ocio = find_ocio_config(blender->program, blender->major, blender->minor);
+  if (!ocio) {
+    findings.bad("colour", ocio.error().message);
+    return;
+  }
+  const Result<ColorManagement> color = ColorManagement::load(*ocio);
+  if (color) {
+    findings.good("colour", fmt::format("{} (SHA-256 {}…)", ocio->string(),
+                                        color->config_hash().substr(0, 12)));
+  } else {
+    findings.bad("colour", color.error().message);
+  }
+}
+
+void examine_home(Findings& findings) {
+  const fs::path home = seedframe_home();
+  std::error_code error;
+  if (fs::is_regular_file(home / "blender_scripts" / "render_worker.py", error)) {
+    findings.good("home", home.string());
+  } else {
+    findings.bad("home",
+                 home.string() + " has no blender_scripts/render_worker.py: set SEEDFRAME_HOME");
+  }
+  const auto assets = AssetLibrary::open({home / "assets"});
+  std::size_t readable = 0;
+  if (assets) {
+    for (const std::string& name : assets->names()) {
+      const auto asset = assets->load(name);
+      if (!asset) findings.bad("assets", asset.error().message);
+      readable += asset ? 1 : 0;
+    }
+    findings.good("assets", fmt::format("{} built in", readable));
+  } else {
+    findings.bad("assets", assets.error().message);
+  }
+  const auto materials = MaterialLibrary::open({home / "materials"}, {});
+  if (materials) {
+    findings.good("materials", fmt::format("{} built in, {} of them with textures",
+                                           materials->material_names().size(),
+                                           materials->texture_set_names().size()));
+  } else {
+    findings.bad("materials", materials.error().message);
+  }
+}
+
+int examine(const DoctorArguments& arguments) {
+  Findings findings;
+  findings.good("seedframe", SEEDFRAME_VERSION);
+  examine_blender(arguments.blender, findings);
+  examine_home(findings);
+  std::string libraries;
+  const Json versions = library_versions();
+  for (const auto& [name, version] : versions.items()) {
+    libraries += (libraries.empty() ? "" : ", ") + name + " " + version.get<std::string>();
+  }
+  findings.good("libraries", libraries);
+  findings.good("cores", std::to_string(std::thread::hardware_concurrency()));
+  std::error_code error;
+  const fs::space_info space = fs::space(fs::current_path(), error);
+  findings.good("disk", fmt::format("{} GB free here", space.available / 1'000'000'000));
+  return findings.any_bad() ? kExitEnvironment : kExitOk;
+}
+
+}  // namespace
+
+void add_doctor_verb(CLI::App& app, const OnSelected& on_selected) {
+  auto arguments = std::make_shared<DoctorArguments>();
+  CLI::App* verb = app.add_subcommand("doctor", "what is installed, and whether it is enough");
+  verb->add_option("--blender", arguments->blender, "Blender to look at: a path, or a name in PATH")
+      ->capture_default_str();
+  verb->footer("Example: seedframe doctor --blender /opt/blender/blender");
+  verb->callback(
+      [arguments, on_selected] { on_selected([arguments] { return examine(*arguments); }); });
+}
+
+}  // namespace seedframe

@@ -1,0 +1,47 @@
+// What the program's exit code says; the README lists it for users.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "base/error.h"
+
+namespace seedframe {
+
+enum ExitCode : int {
+  kExitOk = 0,
+  kExitInternal = 1,      ///< a mistake in Seedframe itself
+  kExitInput = 2,         ///< the config, an argument or the output folder; nothing was written
+  kExitSomeFailed = 3,    ///< the campaign ended, but some frames failed
+  kExitEnvironment = 4,   ///< Blender, the disk or the system is not as needed
+  kExitCorrupt = 5,       ///< files are not as Seedframe wrote them
+  kExitInterrupted = 130  ///< stopped by a signal; 'resume' goes on
+};
+
+inline int exit_code(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::kInput:
+      return kExitInput;
+    case ErrorKind::kEnvironment:
+      return kExitEnvironment;
+    case ErrorKind::kCorrupt:
+      return kExitCorrupt;
+    case ErrorKind::kRender:
+      return kExitSomeFailed;
+  }
+  return kExitInternal;
+}
+
+/// Prints an error, a line "seedframe: error: …" for each line of it, and returns its exit code.
+inline int report(const Error& error) {
+  std::size_t start = 0;
+  while (start <= error.message.size()) {
+    const std::size_t end = std::min(error.message.find('\n', start), error.message.size());
+    std::fprintf(stderr, "seedframe: error: %s\n",
+                 error.message.substr(start, end - start).c_str());
+    start = end + 1;
+  }
+  return exit_code(error.kind);
+}
+
+}  // namespace seedframe

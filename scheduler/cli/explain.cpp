@@ -1,0 +1,140 @@
+// seedframe explain: everything about one frame.
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "campaign/campaign.h"
+#include "cli/exit_code.h"
+#include "cli/home.h"
+#include "cli/verb.h"
+
+namespace seedframe {
+namespace {
+
+struct ExplainArguments {
+  std::string folder;
+  std::int64_t frame = 0;
+  bool json = false;
+};
+
+struct Explanation {
+  FrameRow row;
+  ExpandedFrame expanded;
+  std::vector<AttemptRow> attempts;
+  Result<Manifest> manifest;
+};
+
+Result<Explanation> explain_frame(const Campaign& campaign, std::int64_t frame) {
+  const auto row = campaign.store.frame(frame);
+  if (!row) return forward_error(row);
+  if (!*row) {
+    const auto counts = campaign.store.counts();
+    return fail(ErrorKind::kInput, "the campaign has no frame {}: its frames are 0 to {}", frame,
+                counts ? counts->total() - 1 : 0);
+  }
+  Result<CampaignSource> source = source_of(campaign, seedframe_home());
+  if (!source) return forward_error(source);
+  Result<PreparedCampaign> prepared = prepare(std::move(*source));
+  if (!prepared) return forward_error(prepared);
+  Result<ExpandedFrame> expanded = prepared->expander.expand(frame, /*record_draws=*/true);
+  if (!expanded) return forward_error(expanded);
+  auto attempts = campaign.store.attempts(frame);
+  if (!attempts) return forward_error(attempts);
+  return Explanation{**row, std::move(*expanded), std::move(*attempts),
+                     read_manifest(campaign.files.frame(frame))};
+}
+
+std::string render_again_command(const ExplainArguments& arguments) {
+  return fmt::format("seedframe resume {} --frame {}", arguments.folder, arguments.frame);
+}
+
+Json explanation_json(const Explanation& explanation, const ExplainArguments& arguments) {
+  Json draws = Json::object();
+  for (const Draw& draw : explanation.expanded.draws) draws[draw.name] = draw.value;
+  Json attempts = Json::array();
+  for (const AttemptRow& row : explanation.attempts) {
+    attempts.push_back({{"attempt", row.attempt},
+                        {"worker", row.worker},
+                        {"outcome", row.outcome},
+                        {"build_s", row.build_s},
+                        {"render_s", row.render_s},
+                        {"finish_s", row.finish_s},
+                        {"message", row.message}});
+  }
+  Json json = {{"frame", explanation.row.frame},
+               {"scene", explanation.row.scene},
+               {"frame_of_scene", explanation.expanded.view},
+               {"frame_id", explanation.row.frame_id},
+               {"state", to_string(explanation.row.state)},
+               {"unchanged", explanation.expanded.id == explanation.row.frame_id},
+               {"pixel_hash", explanation.row.pixel_hash},
+               {"draws", draws},
+               {"attempts", attempts},
+               {"render_again", render_again_command(arguments)}};
+  if (explanation.manifest) json["pixels"] = explanation.manifest->pixel_hashes;
+  return json;
+}
+
+void print_explanation(const Explanation& explanation, const Campaign& campaign,
+                       const ExplainArguments& arguments) {
+  const FrameRow& row = explanation.row;
+  fmt::print("frame {}: frame {} of scene {}, {}\n", row.frame, explanation.expanded.view,
+             row.scene, to_string(row.state));
+  fmt::print("frame id   {}\n", row.frame_id);
+  if (explanation.expanded.id != row.frame_id) {
+    fmt::print("           the config or its inputs have changed: today it would be {}\n",
+               explanation.expanded.id);
+  }
+  if (!row.pixel_hash.empty()) fmt::print("pixel hash {}\n", row.pixel_hash);
+  if (explanation.manifest) {
+    for (const auto& [pass, hash] : explanation.manifest->pixel_hashes) {
+      fmt::print("  {:<9}{}\n", pass, hash);
+    }
+    fmt::print("files      {}\n", campaign.files.frame(row.frame).string());
+  }
+  const FrameSpec& spec = explanation.expanded.spec;
+  fmt::print("scene      {} instances, {} materials, {} lights; Cycles seed {}\n",
+             spec.instances.size(), spec.materials.size(), spec.lights.size(), spec.render.seed);
+  for (const AttemptRow& attempt : explanation.attempts) {
+    fmt::print("attempt {}  worker {}, {}: build {:.3f} s, render {:.3f} s, finish {:.3f} s{}{}\n",
+               attempt.attempt, attempt.worker, attempt.outcome, attempt.build_s, attempt.render_s,
+               attempt.finish_s, attempt.message.empty() ? "" : "\n  ", attempt.message);
+  }
+  fmt::print("draws\n");
+  for (const Draw& draw : explanation.expanded.draws) {
+    fmt::print("  {:<44} {}\n", draw.name, canonical_json(draw.value));
+  }
+  fmt::print("render it again: {}\n", render_again_command(arguments));
+}
+
+int explain(const ExplainArguments& arguments) {
+  const Result<Campaign> campaign = open_campaign(arguments.folder);
+  if (!campaign) return report(campaign.error());
+  const Result<Explanation> explanation = explain_frame(*campaign, arguments.frame);
+  if (!explanation) return report(explanation.error());
+  if (arguments.json) {
+    fmt::print("{}", readable_json(explanation_json(*explanation, arguments)));
+  } else {
+    print_explanation(*explanation, *campaign, arguments);
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_explain_verb(CLI::App& app, const OnSelected& on_selected) {
+  auto arguments = std::make_shared<ExplainArguments>();
+  CLI::App* verb = app.add_subcommand(
+      "explain", "one frame: its draws, attempts, timings, hashes, and how to render it again");
+  verb->add_option("DIR", arguments->folder, "folder of the campaign")->required();
+  verb->add_option("FRAME", arguments->frame, "index of the frame, from 0")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+  verb->add_flag("--json", arguments->json, "print it as JSON");
+  verb->footer("Example: seedframe explain results/parts 12");
+  verb->callback(
+      [arguments, on_selected] { on_selected([arguments] { return explain(*arguments); }); });
+}
+
+}  // namespace seedframe

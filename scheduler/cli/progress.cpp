@@ -1,0 +1,100 @@
+#include "cli/progress.h"
+
+#include <cstdio>
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+namespace seedframe {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+std::string bar(double share) {
+  constexpr int kCells = 24;
+  const int full = static_cast<int>(share * kCells);
+  std::string text;
+  for (int i = 0; i < kCells; ++i) text += i < full ? "█" : "·";
+  return text;
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+Progress::Progress(std::int64_t frames, std::int64_t done_before, bool quiet)
+    : frames_(frames),
+      done_before_(done_before),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()),
+      last_shown_(start_) {
+  show(true);
+}
+
+Progress::~Progress() { finish(); }
+
+std::string Progress::line() const {
+  const std::int64_t all = frames_ + done_before_;
+  const std::int64_t ended = done_before_ + done_ + failed_;
+  const double share = all == 0 ? 1.0 : static_cast<double>(ended) / static_cast<double>(all);
+  std::string text = fmt::format("{}/{} frames", done_before_ + done_, all);
+  if (failed_ > 0) text += fmt::format(", {} failed", failed_);
+  // The first frame waits for Blender to start; the rate is that of the frames after it.
+  const double elapsed = done_ > 1 ? seconds_between(first_done_, Clock::now()) : 0.0;
+  if (elapsed > 0.0) {
+    const double rate = static_cast<double>(done_ - 1) / elapsed;
+    text += fmt::format(", {:.2f} frames/s", rate);
+    const std::int64_t left = frames_ - done_ - failed_;
+    if (left > 0) text += ", about " + duration_text(static_cast<double>(left) / rate) + " left";
+  }
+  return terminal_ ? bar(share) + " " + text : text;
+}
+
+void Progress::show(bool now) {
+  if (quiet_) return;
+  const auto time = Clock::now();
+  constexpr double kTerminalInterval = 0.1;
+  constexpr double kPlainInterval = 10.0;
+  const double interval = terminal_ ? kTerminalInterval : kPlainInterval;
+  if (!now && seconds_between(last_shown_, time) < interval) return;
+  last_shown_ = time;
+  if (terminal_) {
+    std::fprintf(stderr, "\r\033[K%s", line().c_str());
+    line_open_ = true;
+  } else {
+    std::fprintf(stderr, "%s\n", line().c_str());
+  }
+  std::fflush(stderr);
+}
+
+void Progress::frame_done(std::int64_t) {
+  if (done_++ == 0) first_done_ = Clock::now();
+  show(done_ + failed_ == frames_);
+}
+
+void Progress::attempt_failed(const FrameJob& job, const std::string& message, bool final) {
+  if (final) ++failed_;
+  if (line_open_) std::fputs("\r\033[K", stderr);
+  std::fprintf(stderr, "frame %lld, attempt %d failed%s: %s\n", static_cast<long long>(job.frame),
+               job.attempt, final ? " for good" : ", trying again", first_line(message).c_str());
+  show(terminal_);
+}
+
+void Progress::finish() {
+  if (line_open_) std::fputc('\n', stderr);
+  line_open_ = false;
+}
+
+}  // namespace seedframe

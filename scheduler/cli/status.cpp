@@ -1,0 +1,117 @@
+// seedframe status: how far a campaign is.
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "campaign/campaign.h"
+#include "cli/exit_code.h"
+#include "cli/progress.h"
+#include "cli/verb.h"
+
+namespace seedframe {
+namespace {
+
+struct StatusArguments {
+  std::string folder;
+  bool json = false;
+};
+
+struct CampaignStatus {
+  FrameCounts counts;
+  std::optional<AttemptTimings> timings;
+  std::vector<AttemptRow> failures;
+  std::string dataset_hash;
+  bool running = false;  ///< a scheduler is at work
+};
+
+constexpr int kTimedAttempts = 100;
+constexpr int kShownFailures = 5;
+
+Result<CampaignStatus> read_status(const Campaign& campaign) {
+  CampaignStatus status;
+  const auto counts = campaign.store.counts();
+  if (!counts) return forward_error(counts);
+  status.counts = *counts;
+  const auto timings = campaign.store.mean_timings(kTimedAttempts);
+  if (!timings) return forward_error(timings);
+  status.timings = *timings;
+  const auto failures = campaign.store.recent_failures(kShownFailures);
+  if (!failures) return forward_error(failures);
+  status.failures = *failures;
+  const auto hash = campaign.store.dataset_hash();
+  if (!hash) return forward_error(hash);
+  status.dataset_hash = *hash;
+  status.running = !CampaignLock::acquire(campaign.files.lock()).has_value();
+  return status;
+}
+
+Json status_json(const CampaignStatus& status) {
+  Json failures = Json::array();
+  for (const AttemptRow& row : status.failures) {
+    failures.push_back({{"frame", row.frame}, {"attempt", row.attempt}, {"message", row.message}});
+  }
+  Json json = {{"frames", status.counts.total()},  {"done", status.counts.done},
+               {"pending", status.counts.pending}, {"running", status.counts.running},
+               {"failed", status.counts.failed},   {"active", status.running},
+               {"recent_failures", failures},      {"dataset_hash", status.dataset_hash}};
+  if (status.timings) {
+    json["mean_seconds"] = {{"build", status.timings->build_s},
+                            {"render", status.timings->render_s},
+                            {"finish", status.timings->finish_s}};
+  }
+  return json;
+}
+
+void print_status(const CampaignStatus& status, const std::string& folder) {
+  const FrameCounts& counts = status.counts;
+  fmt::print("{} frames: {} done, {} running, {} pending, {} failed{}\n", counts.total(),
+             counts.done, counts.running, counts.pending, counts.failed,
+             status.running ? " (a scheduler is at work)" : "");
+  if (status.timings) {
+    const double frame_s = status.timings->build_s + status.timings->render_s;
+    fmt::print(
+        "a frame takes a worker {:.3f} s ({:.3f} s of it to build the scene) and {:.3f} s "
+        "beside it\n",
+        frame_s, status.timings->build_s, status.timings->finish_s);
+    const auto left = static_cast<double>(counts.pending + counts.running);
+    if (left > 0) fmt::print("left for one worker: {}\n", duration_text(left * frame_s));
+  }
+  for (const AttemptRow& row : status.failures) {
+    fmt::print("frame {}, attempt {}: {}\n", row.frame, row.attempt, row.message);
+  }
+  if (!status.dataset_hash.empty()) {
+    fmt::print("dataset hash {}\n", status.dataset_hash);
+  } else if (!status.running) {
+    fmt::print("'seedframe resume {}' renders the rest\n", folder);
+  }
+}
+
+int show_status(const StatusArguments& arguments) {
+  const Result<Campaign> campaign = open_campaign(arguments.folder);
+  if (!campaign) return report(campaign.error());
+  const Result<CampaignStatus> status = read_status(*campaign);
+  if (!status) return report(status.error());
+  if (arguments.json) {
+    fmt::print("{}", readable_json(status_json(*status)));
+  } else {
+    print_status(*status, arguments.folder);
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_status_verb(CLI::App& app, const OnSelected& on_selected) {
+  auto arguments = std::make_shared<StatusArguments>();
+  CLI::App* verb = app.add_subcommand(
+      "status",
+      "counts by state, timings, last errors, and the dataset hash of a complete campaign");
+  verb->add_option("DIR", arguments->folder, "folder of the campaign")->required();
+  verb->add_flag("--json", arguments->json, "print it as JSON");
+  verb->footer("Example: seedframe status results/parts");
+  verb->callback(
+      [arguments, on_selected] { on_selected([arguments] { return show_status(*arguments); }); });
+}
+
+}  // namespace seedframe

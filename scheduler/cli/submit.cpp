@@ -1,0 +1,98 @@
+// seedframe submit: a config to a rendered campaign.
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "base/files.h"
+#include "cli/exit_code.h"
+#include "cli/home.h"
+#include "cli/run_options.h"
+#include "cli/verb.h"
+
+namespace seedframe {
+namespace {
+
+struct SubmitArguments {
+  std::string config;
+  std::string output;
+  std::vector<std::string> set;
+  std::int64_t frames = 0;
+  bool dry_run = false;
+  RunArguments run;
+};
+
+Result<PreparedCampaign> prepare_submission(const SubmitArguments& arguments) {
+  std::vector<Override> overrides;
+  for (const std::string& text : arguments.set) {
+    Result<Override> change = parse_override(text);
+    if (!change) return forward_error(change);
+    overrides.push_back(std::move(*change));
+  }
+  Result<CampaignSource> source = read_source(arguments.config, overrides, seedframe_home());
+  if (!source) return forward_error(source);
+  return prepare(std::move(*source));
+}
+
+void print_plan(const PreparedCampaign& prepared, const RunSetup& setup, std::int64_t frames,
+                const std::filesystem::path& folder) {
+  const CampaignConfig& config = prepared.config;
+  fmt::print("{} scenes × {} frames: {} of {} frames would be rendered, {} × {} at {} samples\n",
+             config.scenes, config.frames_per_scene, frames, config.frame_count(),
+             config.render.width, config.render.height, config.render.samples);
+  fmt::print("seed {}, {} categories, {} meshes, {} textures\n", config.seed,
+             config.categories.size(), prepared.expander.mesh_buffers().size(),
+             prepared.expander.textures().size());
+  fmt::print("Blender {}: {} workers of {} threads\n", setup.blender.version, setup.options.workers,
+             setup.options.threads);
+  fmt::print("into {} (nothing was written)\n", folder.string());
+}
+
+int submit(const SubmitArguments& arguments) {
+  Result<PreparedCampaign> prepared = prepare_submission(arguments);
+  if (!prepared) return report(prepared.error());
+  const std::filesystem::path folder =
+      arguments.output.empty() ? std::filesystem::path("results") / prepared->config.name
+                               : std::filesystem::path(arguments.output);
+  Result<std::vector<FrameIdentity>> frames = expand_all(prepared->expander);
+  if (!frames) return report(frames.error());
+  const auto all = static_cast<std::int64_t>(frames->size());
+  const std::int64_t wanted = arguments.frames > 0 ? std::min(arguments.frames, all) : all;
+  Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
+  if (!setup) return report(setup.error());
+  if (arguments.dry_run) {
+    print_plan(*prepared, *setup, wanted, folder);
+    return kExitOk;
+  }
+  Result<Campaign> campaign = create_campaign(folder, *prepared, *frames);
+  if (!campaign) return report(campaign.error());
+  const Result<CampaignLock> lock = CampaignLock::acquire(campaign->files.lock());
+  if (!lock) return report(lock.error());
+  std::vector<PendingFrame> pending;
+  for (std::int64_t frame = 0; frame < wanted; ++frame) pending.push_back({frame, 0});
+  return run_campaign(*campaign, *prepared, *setup, pending, arguments.run);
+}
+
+}  // namespace
+
+void add_submit_verb(CLI::App& app, const OnSelected& on_selected) {
+  auto arguments = std::make_shared<SubmitArguments>();
+  CLI::App* verb =
+      app.add_subcommand("submit", "validate, expand and render a campaign to the end");
+  verb->add_option("CONFIG", arguments->config, "campaign config (docs/config.md)")->required();
+  verb->add_option("-o,--output", arguments->output,
+                   "folder of the campaign (default: results/<name of the campaign>)");
+  verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
+      ->allow_extra_args(false);
+  verb->add_option("--frames", arguments->frames,
+                   "render only the first N frames; 'resume' renders the rest")
+      ->check(CLI::PositiveNumber);
+  verb->add_flag("--dry-run", arguments->dry_run, "show what would be done");
+  add_run_options(*verb, arguments->run);
+  verb->footer(
+      "Example: seedframe submit configs/parts.yaml -o results/parts --set render.samples=16");
+  verb->callback(
+      [arguments, on_selected] { on_selected([arguments] { return submit(*arguments); }); });
+}
+
+}  // namespace seedframe

@@ -1,0 +1,25 @@
+#!/bin/sh
+# The main job from a bare Debian 12: installs, builds, renders configs/parts.yaml, exports it, and says where to
+# look. Run again, it renders nothing that is there.
+set -eu
+cd "$(dirname "$0")/.."
+scripts/setup.sh
+seedframe=build/release/seedframe
+campaign=${1:-results/parts}
+
+if [ -f "$campaign/campaign.sqlite" ]; then
+  $seedframe resume "$campaign"
+else
+  $seedframe submit configs/parts.yaml -o "$campaign"
+fi
+$seedframe export "$campaign" --format coco --format coco-polygon --format yolo-detect \
+  --format yolo-segment --split train=0.8,val=0.2
+$seedframe status "$campaign"
+cat <<END
+
+Look at
+  $campaign/frames/000/000000/image.png            the first image; beside it its masks, labels and frame spec
+  $campaign/exports/coco/annotations/              COCO, one file a split
+  $campaign/exports/yolo-segment/data.yaml         YOLO, ready for a trainer
+  $seedframe explain $campaign 0                   where each number of frame 0 comes from
+END

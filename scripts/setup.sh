@@ -1,0 +1,37 @@
+#!/bin/sh
+# Installs what building, testing and rendering need on Debian 12, and builds. Run again, it does only what is
+# missing. As root, or with sudo.
+#
+#   scripts/setup.sh            packages and a release build
+#   scripts/setup.sh --packages packages only
+set -eu
+cd "$(dirname "$0")/.."
+
+packages="
+  ca-certificates ccache clang-format clang-tidy cmake g++ git ninja-build pkg-config
+  blender python3 python3-numpy
+  libboost-dev libcli11-dev libdraco-dev libeigen3-dev libexpected-dev libfmt-dev libmuparser-dev
+  libopencolorio-dev libopenexr-dev libpng-dev librandom123-dev libsqlite3-dev libssl-dev
+  libyaml-cpp-dev nlohmann-json3-dev
+  libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev"
+
+missing=""
+for package in $packages; do
+  state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$state" = installed ] || missing="$missing $package"
+done
+if [ -n "$missing" ]; then
+  as_root=""
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || { echo "setup.sh: run this as root, or install sudo" >&2; exit 4; }
+    as_root="sudo"
+  fi
+  echo "setup.sh: installing$missing"
+  $as_root apt-get update -qq
+  $as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends $missing >/dev/null
+fi
+[ "${1:-}" = --packages ] && exit 0
+
+[ -f build/release/build.ninja ] || cmake --preset release >/dev/null
+ninja -C build/release seedframe

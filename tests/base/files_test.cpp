@@ -1,0 +1,85 @@
+#include "base/files.h"
+
+#include <gtest/gtest.h>
+
+#include "base/campaign_files.h"
+#include "base/nearest_name.h"
+#include "base/sha256.h"
+
+namespace seedframe {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FilesTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(FilesTest, WritesAndReadsBytes) {
+  const std::string bytes("a\0b\n", 4);
+  ASSERT_TRUE(write_file(folder_ / "f", bytes));
+  EXPECT_EQ(*read_file(folder_ / "f"), bytes);
+}
+
+TEST_F(FilesTest, ReplacesAtomicallyAndLeavesNoTemporary) {
+  ASSERT_TRUE(write_file_atomically(folder_ / "f", "old"));
+  ASSERT_TRUE(write_file_atomically(folder_ / "f", "new"));
+  EXPECT_EQ(*read_file(folder_ / "f"), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(FilesTest, CommitReplacesAFolderThatIsThere) {
+  fs::create_directories(folder_ / "final");
+  ASSERT_TRUE(write_file(folder_ / "final" / "stale", "x"));
+  fs::create_directories(folder_ / "attempt");
+  ASSERT_TRUE(write_file(folder_ / "attempt" / "fresh", "y"));
+  ASSERT_TRUE(commit_folder(folder_ / "attempt", folder_ / "final"));
+  EXPECT_TRUE(fs::exists(folder_ / "final" / "fresh"));
+  EXPECT_FALSE(fs::exists(folder_ / "final" / "stale"));
+  EXPECT_FALSE(fs::exists(folder_ / "attempt"));
+}
+
+TEST_F(FilesTest, ErrorsNameTheFileAndTheReason) {
+  const auto missing = read_file(folder_ / "none");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("none: No such file"), std::string::npos);
+  EXPECT_FALSE(read_file(folder_));
+  EXPECT_FALSE(write_file(folder_ / "no" / "such" / "folder", "x"));
+  const auto full = write_file("/dev/full", "x");
+  ASSERT_FALSE(full);
+  EXPECT_NE(full.error().message.find("No space left"), std::string::npos);
+}
+
+TEST(CampaignFiles, NamesFramesByThousands) {
+  const CampaignFiles files("c");
+  EXPECT_EQ(files.frame(0), "c/frames/000/000000");
+  EXPECT_EQ(files.frame(12345), "c/frames/012/012345");
+  EXPECT_EQ(files.frame(1234567), "c/frames/1234/1234567");
+  EXPECT_NE(files.attempt(5, 1), files.attempt(5, 2));
+}
+
+TEST(Sha256, MatchesFips180) {
+  EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(Sha256().update("a").update("bc").hex(), sha256_hex("abc"));
+}
+
+TEST(NearestName, FindsTyposAndNothingElse) {
+  const std::vector<std::string> names = {"samples", "width", "height"};
+  EXPECT_EQ(nearest_name("sampels", names), "samples");
+  EXPECT_EQ(nearest_name("widht", names), "width");
+  EXPECT_EQ(nearest_name("colour", names), "");
+  EXPECT_EQ(did_you_mean("smaples", names), " (did you mean 'samples'?)");
+  EXPECT_EQ(did_you_mean("colour", names), " (there are: samples, width, height)");
+}
+
+}  // namespace
+}  // namespace seedframe
