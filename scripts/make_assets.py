@@ -100,15 +100,15 @@ def write_obj(path, mesh, uv_of):
 def make(name, shape, uv_of, folder):
     mesh = shape()
     size = centre(mesh)
-    bmesh.ops.triangulate(mesh, faces=mesh.faces, quad_method='BEAUTY', ngon_method='BEAUTY')
+    bmesh.ops.triangulate(mesh, faces=mesh.faces, quad_method='BEAUTY', ngon_method='EAR_CLIP')
     mesh.normal_update()
     open_edges = sum(1 for edge in mesh.edges if len(edge.link_faces) != 2)
     volume = mesh.calc_volume(signed=True)
     write_obj(os.path.join(folder, name + '.obj'), mesh, uv_of)
     print(f'{name}: {len(mesh.faces)} triangles, {size.x:.2f} x {size.y:.2f} x {size.z:.2f} mm, '
           f'{volume / 1000.0:.2f} cm3, {open_edges} open edges', flush=True)
-    if volume <= 0.0:
-        sys.exit(f'{name} is inside out')
+    if volume <= 0.0 or open_edges > 0:
+        sys.exit(f'{name} is inside out or not closed')
     mesh.free()
 
 

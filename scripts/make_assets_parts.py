@@ -211,7 +211,7 @@ def pump_cover():
                 box(-100.0, 100.0, 84.0, 120.0, -1.0, 60.0))
     cavity = filleted([(0.0, -1.0), (37.0, -1.0), (36.0, 13.0, 6.0), (0.0, 17.0)], closed=False)
     groove = [(44.5, -1.0), (47.0, -1.0), (47.0, 1.8), (44.5, 1.8)]
-    solid = cut(solid, lathe(cavity, 96), lathe(groove, 128, closed=True))
+    solid = cut(solid, lathe(cavity, 96), lathe(groove, 120, closed=True))
     solid = cut(solid, lathe([(0.0, 10.0), (12.0, 10.0), (12.0, 38.0), (14.0, 40.0), (0.0, 40.0)], 64))
     outlet = lathe([(0.0, 0.0), (9.5, 0.0), (9.5, 53.0), (11.5, 55.0), (0.0, 55.0)], 64)
     solid = cut(solid, moved(turned(outlet, -90.0, 'X'), x=33.0, y=30.0, z=16.0))

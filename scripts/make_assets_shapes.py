@@ -97,6 +97,8 @@ def cleaned(mesh):
     """Merges points that coincide, drops what that collapses and turns all faces outwards."""
     bmesh.ops.remove_doubles(mesh, verts=mesh.verts, dist=MERGE_DISTANCE_MM)
     bmesh.ops.dissolve_degenerate(mesh, edges=mesh.edges, dist=MERGE_DISTANCE_MM)
+    wires = [edge for edge in mesh.edges if not edge.link_faces]
+    bmesh.ops.delete(mesh, geom=wires, context='EDGES')
     bmesh.ops.recalc_face_normals(mesh, faces=mesh.faces)
     return mesh
 

@@ -21,6 +21,9 @@ PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) 
   pool.threads = options.threads;
   pool.max_attempts = options.max_attempts;
   pool.frame_timeout = options.frame_timeout;
+  // A killed Blender leaves its temporary folder behind; here it goes with the rest of work/.
+  std::error_code ignored;
+  pool.environment["TMPDIR"] = fs::absolute(files.work(), ignored).string();
   return pool;
 }
 

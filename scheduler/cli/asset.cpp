@@ -1,4 +1,3 @@
-#include <cctype>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/canonical_json.h"
+#include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
 #include "geometry/asset_files.h"
@@ -18,7 +18,6 @@ namespace seedframe {
 namespace {
 
 namespace fs = std::filesystem;
-using OnSelected = std::function<void(std::function<int()>)>;
 
 // What the user asked for; the subcommands share it, as only one of them runs.
 struct Options {
@@ -36,26 +35,6 @@ struct Options {
     return root.empty() ? seedframe_home() / "assets" : fs::path(root);
   }
 };
-
-// Scripts tell by the exit code who can mend it.
-int exit_code_of(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::kInput:
-      return 2;
-    case ErrorKind::kEnvironment:
-      return 3;
-    case ErrorKind::kCorrupt:
-      return 4;
-    case ErrorKind::kRender:
-      return 5;
-  }
-  return 1;
-}
-
-int report(const Error& error) {
-  fmt::print(stderr, "seedframe: error: {}\n", error.message);
-  return exit_code_of(error.kind);
-}
 
 // "M12 bolt.v2.obj" becomes "M12_bolt_v2".
 std::string name_from_file(const fs::path& file) {

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/nearest_name.h"
 
@@ -37,7 +38,9 @@ std::optional<double> parse_double(const std::string& text) {
   if (begin != end && *begin == '+') ++begin;
   double value = 0.0;
   const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error == std::errc::result_out_of_range || stop != end || begin == end) return std::nullopt;
+  if (stop != end || begin == end) return std::nullopt;
+  // Too large is infinite, too small is 0: strtod tells them apart.
+  if (error == std::errc::result_out_of_range) return std::strtod(text.c_str(), nullptr);
   return error == std::errc() ? std::optional(value) : std::nullopt;
 }
 

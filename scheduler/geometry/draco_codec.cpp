@@ -188,6 +188,10 @@ Result<std::string> encode_draco(const Mesh& mesh, const DracoOptions& options) 
   encoder.SetAttributeQuantization(positions, options.position_bits);
   encoder.SetAttributeQuantization(uvs, options.uv_bits);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
+  // The scheme that Draco would choose reads an unchecked count: seconds for one damaged byte.
+  if (!encoder.SetAttributePredictionScheme(uvs, draco::MESH_PREDICTION_PARALLELOGRAM).ok()) {
+    return fail(ErrorKind::kInput, "Draco cannot predict the UVs of the mesh");
+  }
   // Above speed 5 Draco splits the mesh at UV seams, and vertices would no longer be shared.
   encoder.SetSpeedOptions(3, 3);
   draco::EncoderBuffer buffer;

@@ -7,11 +7,8 @@ namespace seedframe {
 Schedule::Schedule(const std::vector<PendingFrame>& frames, int max_attempts)
     : max_attempts_(max_attempts) {
   for (const PendingFrame& frame : frames) {
-    if (frame.attempts_used < max_attempts) {
-      frames_.push_back({frame.frame, frame.attempts_used + 1});
-    } else {
-      ++failed_;
-    }
+    frames_.push_back({frame.frame, frame.attempts_used + 1});
+    if (frame.attempts_used > 0) used_before_[frame.frame] = frame.attempts_used;
   }
 }
 
@@ -23,6 +20,11 @@ std::optional<FrameJob> Schedule::next(bool fresh_worker) {
   queue.pop_front();
   open_.emplace(job, State::kHandedOut);
   return job;
+}
+
+bool Schedule::is_last_attempt(const FrameJob& job) const {
+  const auto before = used_before_.find(job.frame);
+  return job.attempt >= max_attempts_ + (before == used_before_.end() ? 0 : before->second);
 }
 
 bool Schedule::withdraw(const FrameJob& job) {

@@ -27,6 +27,8 @@ enum class RetryIn {
 /// a late or repeated answer can do no harm.
 class Schedule {
  public:
+  /// Each frame gets max_attempts in this run, whatever earlier runs used: who resumes a campaign
+  /// has mended something.
   Schedule(const std::vector<PendingFrame>& frames, int max_attempts);
 
   /// The next attempt to make; empty when nothing waits that this worker may take. A fresh worker
@@ -45,7 +47,7 @@ class Schedule {
   bool fail_for_good(const FrameJob& job);
 
   /// Whether a failure of this job would be its frame's last.
-  bool is_last_attempt(const FrameJob& job) const { return job.attempt >= max_attempts_; }
+  bool is_last_attempt(const FrameJob& job) const;
 
   /// Nothing is handed out any more.
   void drain() { draining_ = true; }
@@ -70,8 +72,9 @@ class Schedule {
 
   int max_attempts_;
   bool draining_ = false;
-  std::deque<FrameJob> frames_;  ///< the next attempt of each
-  std::deque<FrameJob> fresh_;   ///< the same, for fresh workers only
+  std::map<std::int64_t, int> used_before_;  ///< attempts of earlier runs, where there were any
+  std::deque<FrameJob> frames_;              ///< the next attempt of each
+  std::deque<FrameJob> fresh_;               ///< the same, for fresh workers only
   std::map<FrameJob, State> open_;
   std::int64_t done_ = 0;
   std::int64_t failed_ = 0;

@@ -105,6 +105,7 @@ class Compiler {
     compiled_.frame_variables = block(config_.frame_variables, "variables.frame.", Level::kFrame);
     compile_world_and_ground();
     compile_camera();
+    count_scope_ = scope_;
     built_in.copy_index = add_built_in("copy_index");
     built_in.copies = add_built_in("copies");
     for (const ObjectConfig& object : config_.objects) compile_object(object);
@@ -159,9 +160,8 @@ class Compiler {
     CompiledObject object;
     object.name = config.name;
     object.place = config.place;
-    // How many copies there are cannot depend on the copy.
-    object.count =
-        SectionCompiler(scope_, section_name, config.redraw, errors_).number(config.count, "count");
+    object.count = SectionCompiler(count_scope_, section_name, config.redraw, errors_)
+                       .number(config.count, "count");
     object.variables = VariableBlock::compile(config.variables, section_name + ".variables.",
                                               config.redraw, compiled_.values, scope, errors_);
     const SectionCompiler section(scope, section_name, config.redraw, errors_);
@@ -197,8 +197,8 @@ class Compiler {
     light.name = config.name;
     light.place = config.place;
     light.type = config.type;
-    light.count =
-        SectionCompiler(scope_, section_name, config.redraw, errors_).number(config.count, "count");
+    light.count = SectionCompiler(count_scope_, section_name, config.redraw, errors_)
+                      .number(config.count, "count");
     light.variables = VariableBlock::compile(config.variables, section_name + ".variables.",
                                              config.redraw, compiled_.values, scope, errors_);
     const SectionCompiler section(scope, section_name, config.redraw, errors_);
@@ -219,6 +219,7 @@ class Compiler {
   CompiledConfig& compiled_;
   Diagnostics& errors_;
   CompileScope scope_;
+  CompileScope count_scope_;  ///< how many copies there are cannot depend on the copy
 };
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(CampaignConfig, RefusesWhatIsNoScene) {
       {"seedframe: 1\ncamera: {}", "a camera needs a position, or a distance_m"},
       {"seedframe: 1\ncamera: {distance_m: 1, position: [0, 0, 1]}", "exclude each other"},
       {"seedframe: 1\ncamera: {distance_m: .nan}", "a number must be finite"},
-      {"seedframe: 1\ncamera: {distance_m: 1e999}", "1e999"},
+      {"seedframe: 1\ncamera: {distance_m: 1e999}", "must be finite, found '1e999'"},
       {"seedframe: 1\ncamera: {distance_m: {unifrom: [0, 1]}}",
        "unknown distribution 'unifrom' (did you mean 'uniform'?)"},
       {"seedframe: 1\ncamera: {distance_m: {uniform: [0]}}", "uniform wants [min, max]"},
@@ -108,7 +108,7 @@ TEST(CampaignConfig, RefusesWhatIsNoScene) {
        "path of an OpenColorIO config"},
       {"seedframe: 1\nseed: 1\nseed: 2\ncamera: {distance_m: 1}", "stands twice"},
       {"seedframe: 1\n  bad indent: [", "this is not YAML"},
-      {"", "expected a mapping"},
+      {"", "the key 'seedframe' is missing"},
       {"[1, 2]", "expected a mapping"},
   };
   for (const Case& c : cases) {

@@ -37,20 +37,18 @@ TEST(Schedule, AFrameIsDoneWhenItsVerdictIsGood) {
   EXPECT_TRUE(schedule.finished());
 }
 
-TEST(Schedule, AttemptsGoOnFromThoseAlreadyUsed) {
-  Schedule schedule({{7, 2}}, 3);
-  const FrameJob job = *schedule.next(kFresh);
-  EXPECT_EQ(job, (FrameJob{7, 3}));
-  EXPECT_TRUE(schedule.is_last_attempt(job));
-  EXPECT_TRUE(schedule.attempt_failed(job, RetryIn::kAnyWorker));
+TEST(Schedule, AttemptNumbersGoOnButEachRunHasItsOwn) {
+  Schedule schedule({{7, 3}}, 2);
+  const FrameJob first = *schedule.next(kFresh);
+  EXPECT_EQ(first, (FrameJob{7, 4}));
+  EXPECT_FALSE(schedule.is_last_attempt(first));
+  EXPECT_TRUE(schedule.attempt_failed(first, RetryIn::kAnyWorker));
+  const FrameJob second = *schedule.next(kFresh);
+  EXPECT_EQ(second, (FrameJob{7, 5}));
+  EXPECT_TRUE(schedule.is_last_attempt(second));
+  EXPECT_TRUE(schedule.attempt_failed(second, RetryIn::kAnyWorker));
   EXPECT_EQ(schedule.failed(), 1);
   EXPECT_TRUE(schedule.finished());
-}
-
-TEST(Schedule, AFrameWithoutAttemptsLeftHasFailed) {
-  Schedule schedule({{7, 3}, {8, 0}}, 3);
-  EXPECT_EQ(schedule.failed(), 1);
-  EXPECT_EQ(schedule.next(kFresh), (FrameJob{8, 1}));
 }
 
 TEST(Schedule, AnOrderlyFailureIsRetriedAnywhere) {

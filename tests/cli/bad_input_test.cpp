@@ -1,0 +1,142 @@
+// Bad input: a clear error before anything renders, exit code 2, nothing written.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+namespace seedframe {
+namespace {
+
+using ::testing::HasSubstr;
+
+class BadInputTest : public ProgramTest {
+ protected:
+  /// Submits a config and expects exit code 2, the message, no campaign folder and no Blender.
+  void expect_refused(const std::string& config, const std::string& message,
+                      std::vector<std::string> more = {}) {
+    write("scene.yaml", config);
+    std::vector<std::string> arguments = {"submit", "scene.yaml", "-o",
+                                          "c",      "--blender",  kFakeBlender};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments, {R"(SEEDFRAME_FAKE={"starts_log": "starts.txt"})"});
+    EXPECT_EQ(outcome.exit_code, 2) << config << outcome.errors;
+    EXPECT_THAT(outcome.errors, HasSubstr(message)) << config;
+    EXPECT_FALSE(exists("c")) << config;
+    EXPECT_FALSE(exists("starts.txt")) << config;
+  }
+
+  static std::string with_object(const std::string& object) {
+    return "seedframe: 1\ncategories: [gear]\ncamera: {distance_m: 1}\nobjects:\n  o: " + object +
+           "\n";
+  }
+};
+
+TEST_F(BadInputTest, MissingFilesAndAssets) {
+  EXPECT_EQ(run({"submit", "none.yaml"}).exit_code, 2);
+  EXPECT_THAT(run({"check", "none.yaml"}).errors, HasSubstr("none.yaml: No such file"));
+  expect_refused(with_object("{asset: gaer}"), "scene.yaml:5:");
+  expect_refused(with_object("{asset: gaer}"), "did you mean 'gear'?");
+  expect_refused(with_object("{asset: gear, material: nickel_}"), "there is no material 'nickel_'");
+}
+
+TEST_F(BadInputTest, NumbersThatMakeNoScene) {
+  expect_refused(with_object("{asset: gear, scale: .nan}"), "a number must be finite");
+  expect_refused(with_object("{asset: gear, scale: -1}"), "scale must be above 0");
+  expect_refused(with_object("{asset: gear, scale: 0/0}"), "a number must be finite");
+  expect_refused(with_object("{asset: gear, count: 99999}"), "a count must be from 0 to 32767");
+  expect_refused(with_object("{asset: gear}") + "render: {width: 0}\n", "render.width");
+  expect_refused(with_object("{asset: gear}") + "render: {height: -4}\n", "render.height");
+}
+
+TEST_F(BadInputTest, DistributionsAndFormulas) {
+  expect_refused(with_object("{asset: gear, scale: {gaussian: [0, 1]}}"), "unknown distribution");
+  expect_refused(with_object("{asset: gear, scale: {uniform: [2, 1]}}"), "min <= max");
+  expect_refused(with_object("{asset: gear, scale: b, variables: {a: b, b: a}}"),
+                 "refer to each other in a circle: a → b → a");
+}
+
+TEST_F(BadInputTest, AFrameFarIntoTheCampaignIsFoundBeforeTheFirstIsRendered) {
+  expect_refused(with_object("{asset: gear, scale: 40 - scene_index}") + "scenes: 50\n",
+                 "scale must be above 0, found 0 (scene 40");
+}
+
+TEST_F(BadInputTest, EmptyAndDamagedMeshes) {
+  std::filesystem::create_directories(folder_ / "parts/hollow");
+  write("parts/hollow/mesh.drc", "DRACO");
+  write("parts/hollow/asset.json", "{}");
+  expect_refused("asset_folders: [parts]\n" + with_object("{asset: hollow}"), "hollow");
+  write("empty.obj", "# nothing\n");
+  const Outcome outcome = run({"asset", "import", "empty.obj", "--root", "parts", "--name", "e"});
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
+  EXPECT_FALSE(exists("parts/e"));
+}
+
+TEST_F(BadInputTest, Views) {
+  expect_refused(
+      with_object("{asset: gear}") + "image: {view: Filmc, ocio_config: " + kOcioConfig + "}\n",
+      "did you mean 'Filmic'?");
+}
+
+TEST_F(BadInputTest, OutputThatCannotBeWritten) {
+  write("scene.yaml", with_object("{asset: gear}") + "image: {ocio_config: " + kOcioConfig + "}\n");
+  const Outcome nowhere =
+      run({"submit", "scene.yaml", "-o", "/proc/nowhere/c", "--blender", kFakeBlender});
+  EXPECT_EQ(nowhere.exit_code, 2) << nowhere.errors;
+  EXPECT_THAT(nowhere.errors, HasSubstr("/proc/nowhere"));
+  std::filesystem::create_directories(folder_ / "full");
+  write("full/thesis.tex", "precious");
+  const Outcome full = run({"submit", "scene.yaml", "-o", "full", "--blender", kFakeBlender});
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_THAT(full.errors, HasSubstr("is not empty"));
+  EXPECT_EQ(*read_file(folder_ / "full/thesis.tex"), "precious");
+}
+
+TEST_F(BadInputTest, Blenders) {
+  write("scene.yaml", with_object("{asset: gear}"));
+  const Outcome missing = run({"submit", "scene.yaml", "-o", "c", "--blender", "/no/blender"});
+  EXPECT_EQ(missing.exit_code, 4);
+  EXPECT_THAT(missing.errors, HasSubstr("--blender"));
+  write("old_blender", "#!/bin/sh\necho Blender 2.93.4\n");
+  std::filesystem::permissions(folder_ / "old_blender", std::filesystem::perms::owner_all);
+  const Outcome old = run({"submit", "scene.yaml", "-o", "c", "--blender", "./old_blender"});
+  EXPECT_EQ(old.exit_code, 4);
+  EXPECT_THAT(old.errors, HasSubstr("3.3"));
+  EXPECT_FALSE(exists("c"));
+}
+
+TEST_F(BadInputTest, CommandLines) {
+  EXPECT_THAT(run({"sumbit"}).errors,
+              HasSubstr("there is no verb 'sumbit' (did you mean 'submit'?)"));
+  EXPECT_THAT(run({"submit", "x.yaml", "--wrokers", "2"}).errors,
+              HasSubstr("did you mean '--workers'?"));
+  EXPECT_EQ(run({"submit"}).exit_code, 2);
+  EXPECT_EQ(run({"status", "nowhere"}).exit_code, 2);
+  EXPECT_THAT(run({"status", "nowhere"}).errors, HasSubstr("there is no campaign here"));
+  EXPECT_EQ(run({"--help"}).exit_code, 0);
+  for (const char* verb :
+       {"submit", "resume", "status", "explain", "export", "check", "asset", "doctor"}) {
+    const Outcome outcome = run({verb, "--help"});
+    EXPECT_EQ(outcome.exit_code, 0) << verb;
+    EXPECT_THAT(outcome.output, HasSubstr("Example: seedframe ")) << verb;
+  }
+}
+
+TEST_F(BadInputTest, ExportFormats) {
+  EXPECT_THAT(run({"export", "c", "--format", "cocoo"}).errors, HasSubstr("did you mean 'coco'?"));
+  EXPECT_THAT(run({"export", "c", "--format", "coco", "--split", "train=0.8"}).errors,
+              HasSubstr("there is no campaign here"));
+  EXPECT_THAT(run({"export", "c", "--format", "coco", "--split", "train=0.8,vla=0.2"}).errors,
+              HasSubstr("did you mean 'val'?"));
+  EXPECT_THAT(run({"export", "c", "--format", "coco", "--split", "train=0.8,val=0.3"}).errors,
+              HasSubstr("must add up to 1"));
+}
+
+TEST_F(BadInputTest, OverridesAreCheckedLikeTheConfig) {
+  expect_refused(with_object("{asset: gear}"), "--set render.samples=0: render.samples",
+                 {"--set", "render.samples=0"});
+  expect_refused(with_object("{asset: gear}"), "did you mean 'render'?", {"--set", "rendr.x=0"});
+}
+
+}  // namespace
+}  // namespace seedframe

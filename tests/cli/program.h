@@ -1,0 +1,101 @@
+// Starts the seedframe program and its scheduler's worst enemies.
+#pragma once
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/canonical_json.h"
+#include "base/files.h"
+
+namespace seedframe {
+
+struct Outcome {
+  int exit_code = -1;  ///< 128 + signal if it was killed
+  std::string output;
+  std::string errors;
+};
+
+/// A test with a folder of its own, which is the program's working directory.
+class ProgramTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              (std::string(info->test_suite_name()) + "." + info->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override {
+    if (!HasFailure()) std::filesystem::remove_all(folder_);
+  }
+
+  /// Starts the program; `environment` are lines NAME=value.
+  pid_t start(const std::vector<std::string>& arguments,
+              const std::vector<std::string>& environment = {}) {
+    const pid_t pid = ::fork();
+    if (pid != 0) return pid;
+    if (::chdir(folder_.c_str()) != 0) ::_exit(126);
+    for (const std::string& entry : environment) ::putenv(const_cast<char*>(entry.c_str()));
+    if (std::freopen("out.txt", "w", stdout) == nullptr) ::_exit(126);
+    if (std::freopen("err.txt", "w", stderr) == nullptr) ::_exit(126);
+    std::vector<char*> argv = {const_cast<char*>(SEEDFRAME_PROGRAM)};
+    for (const std::string& argument : arguments) {
+      argv.push_back(const_cast<char*>(argument.c_str()));
+    }
+    argv.push_back(nullptr);
+    ::execv(SEEDFRAME_PROGRAM, argv.data());
+    ::_exit(127);
+  }
+
+  Outcome wait(pid_t pid) {
+    int status = 0;
+    ::waitpid(pid, &status, 0);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return {code, *read_file(folder_ / "out.txt"), *read_file(folder_ / "err.txt")};
+  }
+
+  Outcome run(const std::vector<std::string>& arguments,
+              const std::vector<std::string>& environment = {}) {
+    return wait(start(arguments, environment));
+  }
+
+  void write(const std::string& name, const std::string& text) {
+    ASSERT_TRUE(write_file(folder_ / name, text));
+  }
+
+  Json status(const std::string& campaign) {
+    const Outcome outcome = run({"status", campaign, "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    const auto json = parse_json(outcome.output, "status");
+    return json ? *json : Json::object();
+  }
+
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+
+  /// Every file below a folder by its path, with its bytes.
+  std::map<std::string, std::string> contents(const std::string& name) const {
+    std::map<std::string, std::string> files;
+    const std::filesystem::path root = folder_ / name;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+      if (!entry.is_regular_file()) continue;
+      files[std::filesystem::relative(entry.path(), root).string()] = *read_file(entry.path());
+    }
+    return files;
+  }
+
+  std::filesystem::path folder_;
+};
+
+/// The fake Blender brings no colour config of its own.
+inline const std::string kOcioConfig = "/usr/share/blender/datafiles/colormanagement/config.ocio";
+inline const std::string kFakeBlender = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
+
+}  // namespace seedframe
