@@ -24,6 +24,8 @@ _LONGEST_ERROR = 2000
 
 def main():
     options = _parse_options()
+    # Blender was started on one CPU, so that it computes normals in one order (docs/determinism.md).
+    os.sched_setaffinity(0, options.cpus)
     channel = Channel(options.read_fd, options.write_fd)
     builder = SceneBuilder()
     renderer = PassRenderer(builder.scene)
@@ -93,6 +95,7 @@ def _parse_options():
     parser = argparse.ArgumentParser(prog="render_worker.py")
     parser.add_argument("--read-fd", type=int, required=True)
     parser.add_argument("--write-fd", type=int, required=True)
+    parser.add_argument("--cpus", type=lambda text: [int(cpu) for cpu in text.split(",")], required=True)
     return parser.parse_args(arguments)
 
 

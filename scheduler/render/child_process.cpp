@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -34,6 +35,13 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);  // the parent died before prctl
+
+  if (command.cpu >= 0) {
+    cpu_set_t only;
+    CPU_ZERO(&only);
+    CPU_SET(static_cast<std::size_t>(command.cpu), &only);
+    sched_setaffinity(0, sizeof only, &only);
+  }
 
   sigset_t none;
   sigemptyset(&none);
@@ -94,6 +102,16 @@ Result<pid_t> start_child(const ChildCommand& command) {
   if (child == 0) become(command, arguments.data(), environment.data(), parent);
   setpgid(child, child);  // here too: whoever comes first, the group exists before anyone kills it
   return child;
+}
+
+std::vector<int> allowed_cpus() {
+  std::vector<int> cpus;
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return cpus;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (CPU_ISSET(static_cast<std::size_t>(cpu), &allowed)) cpus.push_back(cpu);
+  }
+  return cpus;
 }
 
 std::optional<int> wait_for_child(pid_t child, std::chrono::milliseconds longest) {

@@ -17,6 +17,7 @@ struct ChildCommand {
   std::vector<std::string> environment;  ///< "NAME=value", complete
   int output = -1;                       ///< becomes stdout and stderr
   int channel = -1;                      ///< becomes kChildChannel; -1: none
+  int cpu = -1;                          ///< the one CPU that it starts on; -1: any of ours
 };
 
 /// The descriptor under which a child finds its channel.
@@ -26,6 +27,9 @@ inline constexpr int kChildChannel = 3;
 /// nothing but the descriptors of its command, and gets SIGKILL when the *thread* that called this
 /// ends, however it ends.
 Result<pid_t> start_child(const ChildCommand& command);
+
+/// The CPUs that this process may run on, in order.
+std::vector<int> allowed_cpus();
 
 /// Waits at most so long for the end of a child; its wait status, or empty if it still runs.
 std::optional<int> wait_for_child(pid_t child, std::chrono::milliseconds longest);

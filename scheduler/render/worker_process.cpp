@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 
@@ -26,6 +27,17 @@ void set_non_blocking(int fd) { fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) | O_NONBLO
 off_t size_of(int fd) {
   struct stat info {};
   return fstat(fd, &info) == 0 ? info.st_size : 0;
+}
+
+/// Blender computes vertex normals (before 4.0) with as many threads as there were CPUs for it when
+/// it started, and adds them up in whatever order the threads come: the last bits differ from run
+/// to run. Started on one CPU it computes them in order; the worker script then takes back all
+/// CPUs, and Cycles uses its own number of threads (docs/determinism.md). Starts take turns, so
+/// that workers that start together do not share one CPU.
+int next_start_cpu() {
+  static std::atomic<std::size_t> starts = 0;
+  const std::vector<int> cpus = allowed_cpus();
+  return cpus.empty() ? -1 : cpus[starts++ % cpus.size()];
 }
 
 Result<int> open_log(const std::filesystem::path& path) {
@@ -56,7 +68,9 @@ std::vector<std::string> worker_arguments(const WorkerCommand& command) {
           "--read-fd",
           channel,
           "--write-fd",
-          channel};
+          channel,
+          "--cpus",
+          fmt::format("{}", fmt::join(allowed_cpus(), ","))};
 }
 
 Result<std::unique_ptr<WorkerProcess>> WorkerProcess::start(const WorkerCommand& command) {
@@ -74,6 +88,7 @@ Result<std::unique_ptr<WorkerProcess>> WorkerProcess::start(const WorkerCommand&
   child.environment = worker_environment({command.environment.begin(), command.environment.end()});
   child.output = *log;
   child.channel = ends[1];
+  child.cpu = next_start_cpu();
   const off_t log_begin = size_of(*log);
   const Result<pid_t> pid = start_child(child);
   close(ends[1]);

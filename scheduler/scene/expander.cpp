@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/nearest_name.h"
 #include "base/portable_math.h"
@@ -285,17 +286,20 @@ void SceneExpander::Program::scatter(const CompiledScatter& scatter, double radi
     context.report(scatter.place, "x and y want [least, most] with least <= most");
     return;
   }
-  auto* const record = context.record;
-  context.record = nullptr;  // rejected draws would only confuse
-  bool found = false;
-  for (context.attempt = 0; context.attempt < kPlacementAttempts; ++context.attempt) {
+  auto* const record = std::exchange(context.record, nullptr);  // rejected draws would confuse
+  const auto draw = [&] {
     position.x() = x[0] + (x[1] - x[0]) * scatter.x_draw.evaluate(context);
     position.y() = y[0] + (y[1] - y[0]) * scatter.y_draw.evaluate(context);
+  };
+  bool found = false;
+  while (!found && context.attempt < kPlacementAttempts) {
+    draw();
     found = is_clear({position.x(), position.y(), radius}, footprints_, gap);
-    if (found) break;
+    if (!found) ++context.attempt;
   }
-  context.attempt = 0;
   context.record = record;
+  if (found && record != nullptr) draw();
+  context.attempt = 0;
   if (!found) {
     context.report(scatter.place,
                    fmt::format("no free place was found in {} attempts: enlarge x and y, or lower "

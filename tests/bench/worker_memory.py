@@ -35,7 +35,8 @@ class Worker:
         self.process = subprocess.Popen(
             [blender, "--background", "--factory-startup", "--disable-autoexec", "-noaudio", "--threads",
              str(threads), "--python-exit-code", "3", "--python", str(SCRIPTS / "render_worker.py"), "--",
-             "--read-fd", fd, "--write-fd", fd],
+             "--read-fd", fd, "--write-fd", fd,
+             "--cpus", ",".join(str(cpu) for cpu in sorted(os.sched_getaffinity(0)))],
             env={**os.environ, "PATH": "/usr/bin:/bin"},  # as the scheduler does
             pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, stdout=log, stderr=log)
         theirs.close()

@@ -37,7 +37,7 @@ objects:
     rotation_deg: [90, 0, {uniform: [0, 360]}]
     material: steel
   balls: {asset: sphere, category: none, position: [0, 0, 0.1], scale: 0.4, material: painted_metal}
-ground: {width_m: 2, depth_m: 2, material: {choice: [Concrete01, Wood01]}}
+ground: {width_m: 2, depth_m: 2, material: {choice: [Concrete01, Planks01]}}
 lights: {key: {type: area, position: [0.3, -0.4, 0.8], power: {uniform: [5, 12]}}}
 camera: {target: [0, 0, 0], distance_m: {uniform: [0.3, 0.5]}, azimuth_deg: {uniform: [0, 360]}}
 )";
