@@ -14,8 +14,8 @@ if [ ! -f "$root/etc/debian_version" ]; then
 fi
 for file in /etc/resolv.conf /etc/hosts; do cp "$file" "$root$file"; done
 clean() {
-  for mount in dev/shm dev/pts dev proc; do
-    if mountpoint -q "$root/$mount"; then umount "$root/$mount"; fi
+  for mount in dev proc; do
+    if mountpoint -q "$root/$mount"; then umount -R "$root/$mount"; fi
   done
   [ -n "${KEEP:-}" ] || rm -rf --one-file-system "$root"
 }

@@ -52,7 +52,7 @@ if [ "$what" = all ]; then
   echo "== tests with the real Blender"
   run_tests release blender 1
   echo "== unit tests under AddressSanitizer and UndefinedBehaviorSanitizer"
-  if build asan-ubsan all; then
+  if build asan-ubsan unit_tests; then
     run_tests asan-ubsan unit "$cores"
   else
     failed=$((failed + 1))
