@@ -105,6 +105,18 @@ TEST_F(BadInputTest, Blenders) {
   EXPECT_FALSE(exists("c"));
 }
 
+TEST_F(BadInputTest, ABlenderThatIsNotTestedIsSaidSoAndNotRefused) {
+  write("scene.yaml", with_object("{asset: gear}") + "image: {ocio_config: " + kOcioConfig + "}\n");
+  write("new_blender", "#!/bin/sh\necho Blender 4.2.1 LTS\n");
+  std::filesystem::permissions(folder_ / "new_blender", std::filesystem::perms::owner_all);
+  const Outcome outcome =
+      run({"submit", "scene.yaml", "-o", "c", "--dry-run", "--blender", "./new_blender"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("Blender 4.2.1 is not a version that Seedframe is tested"));
+  EXPECT_THAT(outcome.output, HasSubstr("nothing was written"));
+  EXPECT_FALSE(exists("c"));
+}
+
 TEST_F(BadInputTest, CommandLines) {
   EXPECT_THAT(run({"sumbit"}).errors,
               HasSubstr("there is no verb 'sumbit' (did you mean 'submit'?)"));
