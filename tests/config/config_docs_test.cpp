@@ -11,6 +11,7 @@
 
 #include "base/files.h"
 #include "config/campaign_config.h"
+#include "tests/config/config_page.h"
 
 namespace seedframe {
 namespace {
@@ -21,12 +22,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 const fs::path kHome = SEEDFRAME_HOME;
-
-std::string config_page() {
-  const auto text = read_file(kHome / "docs" / "config.md");
-  EXPECT_TRUE(text);
-  return text.value_or("");
-}
 
 /// What the reader says of the smallest config with `probe: 1` below `path`, or nothing.
 std::string answer_to_probe(const std::string& path) {
@@ -101,26 +96,6 @@ std::string with_names(std::string key) {
   return key;
 }
 
-std::vector<std::string> yaml_blocks(const std::string& page) {
-  std::vector<std::string> blocks;
-  const std::string fence = "```yaml\n";
-  for (std::size_t start = page.find(fence); start != std::string::npos;
-       start = page.find(fence, start)) {
-    start += fence.size();
-    blocks.push_back(page.substr(start, page.find("```", start) - start));
-  }
-  return blocks;
-}
-
-bool is_whole_config(const std::string& block) { return block.starts_with("seedframe: 1"); }
-
-/// An example of some sections, with what every config must have.
-std::string completed(std::string block) {
-  block += "\nseedframe: 1\n";
-  const bool has_camera = block.starts_with("camera:") || block.find("\ncamera:") != block.npos;
-  return has_camera ? block : block + "camera: {distance_m: 1}\n";
-}
-
 TEST(ConfigPage, HasARowForEveryKey) {
   const std::string page = config_page();
   std::set<std::string> keys = light_keys();
@@ -170,11 +145,9 @@ TEST(ConfigPage, HasARowForEveryDistributionWithItsParameters) {
 }
 
 TEST(ConfigPage, ItsExamplesAreAccepted) {
-  const std::vector<std::string> blocks = yaml_blocks(config_page());
-  EXPECT_GE(blocks.size(), 10u);
-  EXPECT_GE(std::count_if(blocks.begin(), blocks.end(), is_whole_config), 1);
-  for (const std::string& block : blocks) {
-    const std::string text = is_whole_config(block) ? block : completed(block);
+  const std::vector<std::string> examples = config_page_examples();
+  EXPECT_GE(examples.size(), 10u);
+  for (const std::string& text : examples) {
     const auto config = read_campaign_config(text, kHome / "configs" / "page.yaml");
     EXPECT_TRUE(config) << text << (config ? "" : config.error().message);
   }
