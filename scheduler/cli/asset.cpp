@@ -159,7 +159,7 @@ void add_import_options(CLI::App& command, Options& options) {
 
 }  // namespace
 
-void add_asset_verb(CLI::App& app, std::function<void(std::function<int()>)> on_selected) {
+void add_asset_verb(CLI::App& app, const OnSelected& on_selected) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("asset", "Bring meshes in, list and check them");
   verb->require_subcommand(1);

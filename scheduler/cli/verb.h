@@ -18,7 +18,7 @@ void add_status_verb(CLI::App& app, const OnSelected& on_selected);
 void add_explain_verb(CLI::App& app, const OnSelected& on_selected);
 void add_export_verb(CLI::App& app, const OnSelected& on_selected);
 void add_check_verb(CLI::App& app, const OnSelected& on_selected);
-void add_asset_verb(CLI::App& app, OnSelected on_selected);
+void add_asset_verb(CLI::App& app, const OnSelected& on_selected);
 void add_doctor_verb(CLI::App& app, const OnSelected& on_selected);
 
 }  // namespace seedframe

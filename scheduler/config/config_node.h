@@ -56,8 +56,8 @@ class ConfigNode {
     std::string file;
     std::vector<Override> overrides;
   };
-  ConfigNode(YAML::Node node, std::string path, std::shared_ptr<const Source> source)
-      : node_(std::move(node)), path_(std::move(path)), source_(std::move(source)) {}
+  ConfigNode(const YAML::Node& node, std::string path, std::shared_ptr<const Source> source)
+      : node_(node), path_(std::move(path)), source_(std::move(source)) {}
   ConfigNode child(const YAML::Node& node, std::string path) const {
     return {node, std::move(path), source_};
   }

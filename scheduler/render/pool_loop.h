@@ -51,7 +51,7 @@ class WorkerPool::Loop {
   void start(Worker& worker);
   void hand_out(Schedule& schedule);
   std::optional<PreparedJob> prepare(Schedule& schedule, bool fresh_worker);
-  void give(Worker& worker, PreparedJob prepared);
+  void give(Worker& worker, const PreparedJob& prepared);
   void retire_workers(Schedule& schedule);
 
   // What comes from them.

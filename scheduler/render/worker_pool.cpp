@@ -115,7 +115,7 @@ void WorkerPool::Loop::hand_out(Schedule& schedule) {
       } else {
         next = prepare(schedule, fresh);
       }
-      if (next) give(worker, std::move(*next));
+      if (next) give(worker, *next);
     }
     somebody_busy = somebody_busy || worker.state == Worker::State::kBusy;
   }
@@ -140,14 +140,14 @@ std::optional<WorkerPool::Loop::PreparedJob> WorkerPool::Loop::prepare(Schedule&
   return std::nullopt;
 }
 
-void WorkerPool::Loop::give(Worker& worker, PreparedJob prepared) {
+void WorkerPool::Loop::give(Worker& worker, const PreparedJob& prepared) {
   worker.state = Worker::State::kBusy;
   worker.job = prepared.job;
   worker.since = Clock::now();
   worker.deadline = worker.since + options_.frame_timeout;
   ++worker.frames;
-  client_.started(worker.job, worker.number);
   worker.process->send(prepared.message);
+  client_.started(worker.job, worker.number);
 }
 
 void WorkerPool::Loop::retire_workers(Schedule& schedule) {
