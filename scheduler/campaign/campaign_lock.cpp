@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -9,12 +10,18 @@
 
 namespace seedframe {
 
-Result<CampaignLock> CampaignLock::acquire(const std::filesystem::path& file) {
+Result<CampaignLock> CampaignLock::acquire(const std::filesystem::path& file,
+                                           std::chrono::milliseconds patience) {
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor < 0) {
     return fail(ErrorKind::kEnvironment, "cannot open {}: {}", file.string(), std::strerror(errno));
   }
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    if (std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      continue;
+    }
     ::close(descriptor);
     return fail(ErrorKind::kInput,
                 "another seedframe is at work on {}: wait for it, or stop it with Ctrl-C",

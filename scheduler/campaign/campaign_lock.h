@@ -1,6 +1,7 @@
 // One scheduler per campaign.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 
 #include "base/error.h"
@@ -12,7 +13,10 @@ namespace seedframe {
 class CampaignLock {
  public:
   /// kInput error when another process holds it.
-  static Result<CampaignLock> acquire(const std::filesystem::path& file);
+  /// `patience` outlasts those who only look whether it is held.
+  static Result<CampaignLock> acquire(
+      const std::filesystem::path& file,
+      std::chrono::milliseconds patience = std::chrono::milliseconds(200));
   ~CampaignLock();
   CampaignLock(CampaignLock&& other) noexcept : descriptor_(other.descriptor_) {
     other.descriptor_ = -1;

@@ -1,6 +1,8 @@
 #include "campaign/provenance.h"
 
 #include <algorithm>
+#include <map>
+#include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <OpenEXR/OpenEXRConfig.h>
@@ -16,6 +18,27 @@ namespace seedframe {
 namespace {
 
 constexpr int kVersion = 1;
+
+/// Keeps what earlier runs of the campaign saw: this one may have looked at a few frames only.
+Status merge(const Json& earlier, const std::string& what, Json& json) {
+  const auto ocio = json_field<std::string>(earlier, "ocio_config_sha256", what);
+  if (!ocio) return forward_error(ocio);
+  if (*ocio != json["ocio_config_sha256"]) {
+    return fail(ErrorKind::kInput,
+                "{}: the OpenColorIO config is not the one that the campaign's images were made "
+                "with (SHA-256 {}…): set image.ocio_config to that one, or submit a new campaign",
+                what, ocio->substr(0, 12));
+  }
+  for (const char* table : {"assets", "textures"}) {
+    const auto before = json_field<std::map<std::string, std::string>>(earlier, table, what);
+    if (!before) return forward_error(before);
+    for (const auto& [name, sha256] : *before) json[table].emplace(name, sha256);
+  }
+  const auto workers = json_field<std::vector<Json>>(earlier, "workers", what);
+  if (!workers) return forward_error(workers);
+  json["workers"] = *workers;
+  return {};
+}
 
 }  // namespace
 
@@ -54,7 +77,9 @@ Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCa
     if (!text) return forward_error(text);
     const Result<Json> earlier = parse_json(*text, files.provenance().string());
     if (!earlier) return forward_error(earlier);
-    if (earlier->contains("workers")) json["workers"] = (*earlier)["workers"];
+    if (Status merged = merge(*earlier, files.provenance().string(), json); !merged) {
+      return forward_error(merged);
+    }
   }
   return Provenance(files.provenance(), std::move(json));
 }

@@ -42,7 +42,8 @@ Result<CampaignStatus> read_status(const Campaign& campaign) {
   const auto hash = campaign.store.dataset_hash();
   if (!hash) return forward_error(hash);
   status.dataset_hash = *hash;
-  status.running = !CampaignLock::acquire(campaign.files.lock()).has_value();
+  status.running =
+      !CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0)).has_value();
   return status;
 }
 

@@ -1,6 +1,7 @@
 #include "config/campaign_config.h"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <set>
 
@@ -313,6 +314,20 @@ void read_categories(SectionReader& section, CampaignConfig& config) {
   }
 }
 
+/// It becomes the name of a folder.
+std::string read_campaign_name(SectionReader& section, const std::string& fallback) {
+  std::string name = section.text("name", fallback);
+  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  });
+  if (section.node().find("name") && (!plain || name.starts_with("."))) {
+    section.errors().add(section.node().find("name")->place(),
+                         "a campaign's name is letters, digits, '_', '-' and '.', and does not "
+                         "begin with '.'");
+  }
+  return name;
+}
+
 void read_version(SectionReader& section) {
   const auto version = section.require("seedframe");
   if (!version) return;
@@ -336,7 +351,7 @@ Result<CampaignConfig> read_campaign_config(const std::string& text,
   CampaignConfig config;
   SectionReader section(*root, errors);
   read_version(section);
-  config.name = section.text("name", file.stem().string());
+  config.name = read_campaign_name(section, file.stem().string());
   section.text("description", "");
   read_size(section, config);
   read_categories(section, config);

@@ -111,7 +111,7 @@ struct CameraConfig {
   std::vector<VariableConfig> variables;
   std::optional<NumberSource> fov_deg;   ///< horizontal
   std::optional<NumberSource> focal_px;  ///< one of the two is set
-  /// None: the centre of gravity of the objects that have a category.
+  /// None: the mean of the centres of all objects' bounding boxes.
   std::optional<VectorSource> target;
   /// Either a position, or a distance and angles around the target.
   std::optional<VectorSource> position;
@@ -126,8 +126,8 @@ struct CampaignConfig {
   std::int64_t scenes = 1;
   std::int64_t frames_per_scene = 1;
   std::vector<std::string> categories;
-  std::vector<std::filesystem::path> asset_folders;     ///< empty: the built-in ones
-  std::vector<std::filesystem::path> material_folders;  ///< empty: the built-in ones
+  std::vector<std::filesystem::path> asset_folders;     ///< searched before the built-in ones
+  std::vector<std::filesystem::path> material_folders;  ///< searched before the built-in ones
   RenderConfig render;
   ImageConfig image;
   std::vector<VariableConfig> campaign_variables, scene_variables, frame_variables;

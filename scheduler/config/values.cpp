@@ -192,6 +192,9 @@ ColorSource read_color(const ConfigNode& node, Diagnostics& errors) {
   ColorSource color;
   if (node.is_map()) {
     node.refuse_unknown_keys({"hsv", "kelvin", "rgb"}, errors);
+    if (node.entries().size() > 1) {
+      errors.add(node.place(), "a colour is one of hsv, kelvin and rgb, not several");
+    }
     if (const auto kelvin = node.find("kelvin")) {
       color.model = ColorModel::kKelvin;
       color.components[0] = read_number(*kelvin, errors);

@@ -369,6 +369,12 @@ Affine SceneExpander::Program::place_camera(const std::vector<PlacedInstance>& p
     const double fov = within(*camera.fov_deg, 0.01, 179.0, "fov_deg", context);
     spec.camera.focal_px = 0.5 * config_.render.width / portable::tan(0.5 * portable::radians(fov));
   }
+  // The sensor is 36 mm wide in Blender, and it clamps a lens below 1 mm without a word.
+  if (spec.camera.focal_px < config_.render.width / 36.0) {
+    context.report(camera.fov_deg ? camera.fov_deg->place() : camera.focal_px->place(),
+                   "the view is too wide: Blender's lenses reach 173.6 degrees (a focal length of "
+                   "1/36 of the image's width)");
+  }
   spec.camera.clip_start_m = positive(camera.clip_start_m, "clip_start_m", context);
   spec.camera.clip_end_m =
       at_least(camera.clip_end_m, spec.camera.clip_start_m, true, "clip_end_m", context);

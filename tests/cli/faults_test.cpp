@@ -197,11 +197,14 @@ TEST_F(FaultsTest, AFrameThatTheStoreDidNotSeeIsTakenOver) {
 
 TEST_F(FaultsTest, OneFrameCanBeRenderedAgain) {
   ASSERT_EQ(submit("{}").exit_code, 0);
+  const std::string provenance = *read_file(folder_ / "c/provenance.json");
+  EXPECT_THAT(provenance, HasSubstr("\"gear\""));
   const auto before = contents("c/frames/000/000006");
   const Outcome outcome = resume({"--frame", "6"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("1 in this run"));
   EXPECT_EQ(contents("c/frames/000/000006"), before);
+  EXPECT_EQ(*read_file(folder_ / "c/provenance.json"), provenance);
   EXPECT_EQ(resume({"--frame", "12"}).exit_code, 2);
 }
 
