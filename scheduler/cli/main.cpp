@@ -15,7 +15,6 @@
 namespace {
 
 using seedframe::did_you_mean;
-using seedframe::ExitCode;
 
 std::vector<std::string> verb_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -49,7 +48,7 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   }
   std::string name;
   for (const CLI::App* level = &verb; level != nullptr; level = level->get_parent()) {
-    name = level->get_name() + (name.empty() ? "" : " ") + name;
+    name.insert(0, level->get_name() + (name.empty() ? "" : " "));
   }
   std::fprintf(stderr, "seedframe: error: %s\nseedframe: '%s --help' tells what there is\n",
                message.c_str(), name.c_str());

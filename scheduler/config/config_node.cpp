@@ -86,7 +86,7 @@ std::vector<std::string> split_path(const std::string& path) {
   return keys;
 }
 
-Status apply(YAML::Node root, const Override& change) {
+Status apply(const YAML::Node& root, const Override& change) {
   const std::string where = "--set " + change.path + "=" + change.value;
   Result<YAML::Node> value = load(change.value, where);
   if (!value) return forward_error(value);
