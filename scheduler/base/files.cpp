@@ -17,6 +17,37 @@ tl::unexpected<Error> system_failure(const char* action, const fs::path& path, i
               std::strerror(error));
 }
 
+/// `sync` forces an open descriptor to the disk and returns 0, or sets errno.
+Status sync_by(int (*sync)(int), const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return system_failure("open", path, errno);
+  const int result = sync(descriptor);
+  const int error = errno;
+  ::close(descriptor);
+  if (result != 0) return system_failure("sync", path, error);
+  return {};
+}
+
+Status write_file_and(int (*sync)(int), const fs::path& path, std::string_view bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) return system_failure("write", path, errno);
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int error = errno;
+      ::close(descriptor);
+      return system_failure("write", path, error);
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  const int synced = sync(descriptor);
+  const int error = errno;
+  ::close(descriptor);
+  if (synced != 0) return system_failure("sync", path, error);
+  return {};
+}
+
 }  // namespace
 
 Result<std::string> read_file(const fs::path& path) {
@@ -33,34 +64,16 @@ Result<std::string> read_file(const fs::path& path) {
   return std::move(bytes).str();
 }
 
-Status sync_path(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return system_failure("open", path, errno);
-  const int result = ::fsync(descriptor);
-  const int error = errno;
-  ::close(descriptor);
-  if (result != 0) return system_failure("sync", path, error);
-  return {};
-}
+Status sync_path(const fs::path& path) { return sync_by(::fsync, path); }
+
+Status sync_filesystem(const fs::path& path) { return sync_by(::syncfs, path); }
 
 Status write_file(const fs::path& path, std::string_view bytes) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor < 0) return system_failure("write", path, errno);
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const int error = errno;
-      ::close(descriptor);
-      return system_failure("write", path, error);
-    }
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  const int synced = ::fsync(descriptor);
-  const int error = errno;
-  ::close(descriptor);
-  if (synced != 0) return system_failure("sync", path, error);
-  return {};
+  return write_file_and(::fsync, path, bytes);
+}
+
+Status write_file_unsynced(const fs::path& path, std::string_view bytes) {
+  return write_file_and([](int) { return 0; }, path, bytes);
 }
 
 Status write_file_atomically(const fs::path& path, std::string_view bytes) {
@@ -71,16 +84,20 @@ Status write_file_atomically(const fs::path& path, std::string_view bytes) {
   return sync_path(path.has_parent_path() ? path.parent_path() : fs::path("."));
 }
 
+Status replace_folder(const fs::path& temporary, const fs::path& final) {
+  if (::rename(temporary.c_str(), final.c_str()) == 0) return {};
+  if (errno != ENOTEMPTY && errno != EEXIST) return system_failure("rename to", final, errno);
+  std::error_code error;
+  fs::remove_all(final, error);
+  if (::rename(temporary.c_str(), final.c_str()) != 0) {
+    return system_failure("rename to", final, errno);
+  }
+  return {};
+}
+
 Status commit_folder(const fs::path& temporary, const fs::path& final) {
   if (Status synced = sync_path(temporary); !synced) return synced;
-  if (::rename(temporary.c_str(), final.c_str()) != 0) {
-    if (errno != ENOTEMPTY && errno != EEXIST) return system_failure("rename to", final, errno);
-    std::error_code error;
-    fs::remove_all(final, error);
-    if (::rename(temporary.c_str(), final.c_str()) != 0) {
-      return system_failure("rename to", final, errno);
-    }
-  }
+  if (Status replaced = replace_folder(temporary, final); !replaced) return replaced;
   return sync_path(final.parent_path());
 }
 

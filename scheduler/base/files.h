@@ -16,11 +16,21 @@ Result<std::string> read_file(const std::filesystem::path& path);
 /// is itself renamed into place.
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// write_file without the wait for the disk: somebody calls sync_filesystem before the file counts.
+Status write_file_unsynced(const std::filesystem::path& path, std::string_view bytes);
+
 /// Writes beside `path`, forces to disk and renames over it.
 Status write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 /// Forces a file's contents, or a folder's entries, to the disk.
 Status sync_path(const std::filesystem::path& path);
+
+/// Forces all that was written to the file system of `path`, by anybody, to the disk: one wait for
+/// any number of files, folders and renames.
+Status sync_filesystem(const std::filesystem::path& path);
+
+/// Renames a folder; one that already has the final name is replaced.
+Status replace_folder(const std::filesystem::path& temporary, const std::filesystem::path& final);
 
 /// Renames a finished folder to its final name and forces the rename to the disk.
 /// A folder that already has the final name is replaced.

@@ -9,7 +9,7 @@ namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
 
-// Finishing a frame takes a small share of rendering it; two threads hide the waiting for the disk.
+// Finishing a frame takes a small share of rendering it.
 constexpr int kFinishThreads = 2;
 
 PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) {
@@ -61,18 +61,26 @@ CampaignRun::CampaignRun(Campaign& campaign, PreparedCampaign& prepared,
       color_(color),
       provenance_(provenance),
       observer_(observer),
+      writer_(std::make_unique<StoreWriter>(
+          campaign.files, campaign.store,
+          [this](const StoreEvent& event, const Status& status) { written(event, status); })),
       queue_(std::make_unique<FinishQueue>(kFinishThreads)),
       pool_(std::make_unique<WorkerPool>(pool_options(options, campaign.files), *this)) {}
 
-CampaignRun::~CampaignRun() { queue_.reset(); }
+CampaignRun::~CampaignRun() {
+  queue_.reset();
+  writer_.reset();
+}
 
 Result<RunSummary> CampaignRun::run(const std::vector<PendingFrame>& frames) {
   for (const fs::path& folder : {campaign_.files.logs(), campaign_.files.work() / "meshes",
-                                 campaign_.files.work() / "attempts"}) {
+                                 campaign_.files.work() / "attempts", campaign_.files.frames()}) {
     if (Status made = make_folders(folder); !made) return forward_error(made);
   }
+  queue_->push([this] { load_view_tables(); });
   Result<RunSummary> summary = pool_->run(frames);
-  queue_.reset();  // waits for what is being finished
+  queue_.reset();   // waits for what is being finished
+  writer_.reset();  // and what is being written
   std::error_code ignored;
   fs::remove_all(campaign_.files.work(), ignored);
   if (!error_) return forward_error(error_);
@@ -97,8 +105,7 @@ Result<RenderRequest> CampaignRun::request(const FrameJob& job) {
       request.textures[texture.second] = fs::absolute(file, ignored);
     }
   }
-  tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), attempt,
-                 campaign_.files.frame(job.frame)};
+  tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), attempt};
   return request;
 }
 
@@ -110,7 +117,8 @@ Result<std::map<std::string, fs::path>> CampaignRun::write_mesh_buffers(const Fr
     const fs::path path = campaign_.files.mesh_buffer(instance.mesh);
     if (!fs::exists(path, error)) {
       const auto& buffer = prepared_.expander.mesh_buffers().at(instance.mesh);
-      if (Status written = write_file_atomically(path, *buffer); !written) {
+      // Scratch: nobody reads it after a crash.
+      if (Status written = write_file_unsynced(path, *buffer); !written) {
         return forward_error(written);
       }
     }
@@ -120,8 +128,7 @@ Result<std::map<std::string, fs::path>> CampaignRun::write_mesh_buffers(const Fr
 }
 
 void CampaignRun::started(const FrameJob& job, int worker) {
-  const std::lock_guard lock(mutex_);
-  keep_error(campaign_.store.attempt_started(job.frame, job.attempt, worker, unix_time()));
+  writer_->push(AttemptStarted{job, worker, unix_time()});
 }
 
 void CampaignRun::rendered(const FrameJob& job, const RenderTimings& timings, int) {
@@ -129,6 +136,11 @@ void CampaignRun::rendered(const FrameJob& job, const RenderTimings& timings, in
   queue_->push(
       [this, job, timings, task = std::move(task->second)] { finish(job, timings, task); });
   tasks_.erase(task);
+}
+
+void CampaignRun::load_view_tables() {
+  // An error comes again with the first frame.
+  (void)color_.apply(Image<float>(1, 1, 4), view_settings(prepared_.config.image));
 }
 
 void CampaignRun::finish(const FrameJob& job, const RenderTimings& timings,
@@ -140,34 +152,38 @@ void CampaignRun::finish(const FrameJob& job, const RenderTimings& timings,
     pool_->post_verdict(job, forward_error(pixel_hash));
     return;
   }
-  {
-    const std::lock_guard lock(mutex_);
-    keep_error(
-        campaign_.store.frame_done(job.frame, job.attempt, *pixel_hash,
-                                   {timings.build_s, timings.render_s, finish_time.count()}));
-    observer_.frame_done(job.frame);
-  }
-  pool_->post_verdict(job, {});
+  writer_->push(
+      FrameFinished{job, *pixel_hash, {timings.build_s, timings.render_s, finish_time.count()}});
 }
 
 void CampaignRun::attempt_failed(const FrameJob& job, const std::string& message, bool final) {
   tasks_.erase(job);
   std::error_code ignored;
   fs::remove_all(campaign_.files.attempt(job.frame, job.attempt), ignored);
-  const std::lock_guard lock(mutex_);
-  keep_error(campaign_.store.attempt_failed(job.frame, job.attempt, message, final));
-  observer_.attempt_failed(job, message, final);
+  writer_->push(AttemptFailed{job, message, final});
+}
+
+void CampaignRun::written(const StoreEvent& event, const Status& status) {
+  keep_error(status);
+  if (const auto* finished = std::get_if<FrameFinished>(&event)) {
+    if (status) observer_.frame_done(finished->job.frame);
+    pool_->post_verdict(finished->job, {});
+  }
+  if (const auto* failed = std::get_if<AttemptFailed>(&event)) {
+    observer_.attempt_failed(failed->job, failed->message, failed->final);
+  }
 }
 
 void CampaignRun::worker_ready(int, const ReadyMessage& ready) {
-  const Status written = provenance_.add_worker(ready);
-  const std::lock_guard lock(mutex_);
-  keep_error(written);
+  keep_error(provenance_.add_worker(ready));
 }
 
 void CampaignRun::keep_error(const Status& status) {
   if (status) return;
-  if (error_) error_ = status;
+  {
+    const std::lock_guard lock(mutex_);
+    if (error_) error_ = status;
+  }
   pool_->drain();
 }
 

@@ -15,6 +15,7 @@
 #include "campaign/finish_queue.h"
 #include "campaign/frame_finisher.h"
 #include "campaign/provenance.h"
+#include "campaign/store_writer.h"
 #include "image/color_management.h"
 #include "render/blender_info.h"
 #include "render/worker_pool.h"
@@ -62,7 +63,10 @@ class CampaignRun : public RenderClient {
   void worker_ready(int worker, const ReadyMessage& ready) override;
 
   Result<std::map<std::string, std::filesystem::path>> write_mesh_buffers(const FrameSpec& spec);
+  /// Takes as long as finishing several frames, so it is done while Blender starts.
+  void load_view_tables();
   void finish(const FrameJob& job, const RenderTimings& timings, const FinishTask& task);
+  void written(const StoreEvent& event, const Status& status);
   /// The store failed: nothing more can be trusted, so the run ends.
   void keep_error(const Status& status);
 
@@ -72,8 +76,9 @@ class CampaignRun : public RenderClient {
   Provenance& provenance_;
   RunObserver& observer_;
   std::map<FrameJob, FinishTask> tasks_;  ///< requested and not yet rendered
-  std::mutex mutex_;                      ///< guards the store, the observer and error_
+  std::mutex mutex_;                      ///< guards error_
   Status error_;
+  std::unique_ptr<StoreWriter> writer_;  ///< the only one to use the store and the observer
   std::unique_ptr<FinishQueue> queue_;
   std::unique_ptr<WorkerPool> pool_;
 };

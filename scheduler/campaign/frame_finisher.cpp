@@ -26,7 +26,7 @@ class FrameWriter {
 
   void write(const char* name, const std::string& bytes) {
     if (!status_) return;
-    status_ = write_file(folder_ / name, bytes);
+    status_ = write_file_unsynced(folder_ / name, bytes);
     manifest_.files[name] = {bytes.size(), sha256_hex(bytes)};
   }
 
@@ -112,17 +112,13 @@ Result<std::string> finish_frame(const FinishTask& task, const ColorManagement& 
   const std::string manifest_text = readable_json(to_json(manifest));
   const std::string hash = manifest.pixel_hash();
   if (!writer.status()) return forward_error(writer.status());
-  if (Status written = write_file(task.attempt_folder / frame_files::kManifest, manifest_text);
+  if (Status written =
+          write_file_unsynced(task.attempt_folder / frame_files::kManifest, manifest_text);
       !written) {
     return forward_error(written);
   }
   std::error_code ignored;
   fs::remove(rendered, ignored);
-  if (Status made = make_folders(task.frame_folder.parent_path()); !made)
-    return forward_error(made);
-  if (Status committed = commit_folder(task.attempt_folder, task.frame_folder); !committed) {
-    return forward_error(committed);
-  }
   return hash;
 }
 

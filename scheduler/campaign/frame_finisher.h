@@ -1,4 +1,4 @@
-// Post-processing of one attempt: from the worker's EXR to a committed frame folder.
+// Post-processing of one attempt: from the worker's EXR to the files of the frame.
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,16 @@ struct FinishTask {
   FrameSpec spec;
   std::string frame_id;
   std::filesystem::path attempt_folder;  ///< holds the worker's passes
-  std::filesystem::path frame_folder;    ///< the final name
 };
 
 /// The worker writes here, inside the attempt folder.
 std::filesystem::path rendered_passes(const std::filesystem::path& attempt_folder);
 
 /// Reads and checks the passes, writes image.png, instances.png, semantic.png, labels.json,
-/// frame.json, the passes without dates, depth.exr and normal.exr when asked for, and the manifest;
-/// forces all to the disk and renames the folder into place. Returns the frame's pixel hash. A
-/// kRender error is the worker's fault, a kEnvironment error the disk's. Thread-safe.
+/// frame.json, the passes without dates, depth.exr and normal.exr when asked for, and the manifest,
+/// all into the attempt folder; StoreWriter brings them to the disk and into place. Returns the
+/// frame's pixel hash. A kRender error is the worker's fault, a kEnvironment error the disk's.
+/// Thread-safe.
 Result<std::string> finish_frame(const FinishTask& task, const ColorManagement& color);
 
 }  // namespace seedframe

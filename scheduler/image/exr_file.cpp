@@ -49,7 +49,7 @@ Status write_exr(const std::filesystem::path& path, const Image<float>& image,
     return fail(ErrorKind::kEnvironment, "cannot write {} ({} x {} pixels): {}", path.string(),
                 image.width, image.height, exception.what());
   }
-  return write_file(path, output.bytes());
+  return write_file_unsynced(path, output.bytes());
 }
 
 }  // namespace seedframe

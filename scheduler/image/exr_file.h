@@ -12,7 +12,7 @@
 namespace seedframe {
 
 /// Writes 32-bit float channels (names such as {"Z"} or {"X","Y","Z"}), ZIP-compressed, without any
-/// date or host in the header, and forces the file to the disk.
+/// date or host in the header. Does not force the file to the disk.
 Status write_exr(const std::filesystem::path& path, const Image<float>& image,
                  const std::vector<std::string>& channels);
 

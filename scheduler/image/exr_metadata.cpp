@@ -26,7 +26,7 @@ Status copy_without_metadata(const std::filesystem::path& from, const std::files
   } catch (const std::exception& error) {
     return fail(ErrorKind::kRender, "cannot copy the passes {}: {}", from.string(), error.what());
   }
-  return write_file(to, output.bytes());
+  return write_file_unsynced(to, output.bytes());
 }
 
 }  // namespace seedframe

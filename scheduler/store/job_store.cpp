@@ -80,9 +80,11 @@ const char* to_string(FrameState state) { return kStateNames[static_cast<std::si
 struct JobStore::Database {
   sqlite::Connection connection;
 
-  /// Runs `body` between BEGIN and COMMIT; an error rolls back.
+  /// Runs `body` between BEGIN and COMMIT; an error rolls back. Inside a transaction it is part of
+  /// that.
   template <class Body>
   Status transaction(Body body) {
+    if (sqlite3_get_autocommit(connection.handle()) == 0) return body();
     if (Status begun = connection.execute("BEGIN IMMEDIATE"); !begun) return begun;
     Status done = body();
     if (done) done = connection.execute("COMMIT");
@@ -226,14 +228,27 @@ Status JobStore::attempt_failed(std::int64_t frame, int attempt, const std::stri
                                 bool final) {
   return database_->transaction([&]() -> Status {
     Statement update(database_->connection,
-                     "UPDATE frames SET state = ?, error = ? WHERE frame = ? AND attempts = ?");
+                     "UPDATE frames SET state = ?1, error = ?2, attempts = ?4 "
+                     "WHERE frame = ?3 AND attempts <= ?4 AND state <> 'done'");
     update.bind(1, std::string(final ? "failed" : "pending")).bind(2, message).bind(3, frame);
     if (Status done = update.bind(4, std::int64_t{attempt}).run(); !done) return done;
+    // A request that could not be made fails before any worker starts on it.
     Statement finish(database_->connection,
-                     "UPDATE attempts SET outcome = 'failed', message = ? "
-                     "WHERE frame = ? AND attempt = ?");
-    return finish.bind(1, message).bind(2, frame).bind(3, std::int64_t{attempt}).run();
+                     "INSERT INTO attempts (frame, attempt, worker, outcome, started, message) "
+                     "VALUES (?, ?, -1, 'failed', 0, ?) ON CONFLICT (frame, attempt) "
+                     "DO UPDATE SET outcome = 'failed', message = excluded.message");
+    finish.bind(1, frame).bind(2, std::int64_t{attempt});
+    return finish.bind(3, message).run();
   });
+}
+
+Status JobStore::write_together(Sync sync, const std::function<Status()>& body) {
+  if (sync == Sync::kNow) return database_->transaction(body);
+  // With NORMAL, SQLite writes the commit to its log but does not wait for the disk.
+  if (Status set = database_->connection.execute("PRAGMA synchronous = NORMAL"); !set) return set;
+  const Status written = database_->transaction(body);
+  const Status reset = database_->connection.execute("PRAGMA synchronous = FULL");
+  return written ? reset : written;
 }
 
 Result<FrameCounts> JobStore::counts() const {

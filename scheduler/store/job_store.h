@@ -34,7 +34,7 @@ struct AttemptRow {
   double started = 0.0;   ///< Unix time, seconds
   double build_s = 0.0;   ///< building the scene in Blender
   double render_s = 0.0;  ///< rendering and writing the EXR
-  double finish_s = 0.0;  ///< checking, converting, labelling and committing
+  double finish_s = 0.0;  ///< checking, converting, labelling and writing the files
   std::string message;    ///< of a failure
 };
 
@@ -80,8 +80,13 @@ class JobStore {
   Status attempt_started(std::int64_t frame, int attempt, int worker, double unix_time);
   Status frame_done(std::int64_t frame, int attempt, const std::string& pixel_hash,
                     const AttemptTimings& timings);
-  /// The frame becomes failed if `final`, otherwise pending.
+  /// The frame becomes failed if `final`, otherwise pending. The attempt need not have started.
   Status attempt_failed(std::int64_t frame, int attempt, const std::string& message, bool final);
+
+  enum class Sync { kNow, kLater };
+  /// What `body` writes, in one transaction: all or nothing, and one wait for the disk; with
+  /// Sync::kLater none, and a power loss may take it back until something else is written.
+  Status write_together(Sync sync, const std::function<Status()>& body);
 
   Result<FrameCounts> counts() const;
   Result<std::optional<FrameRow>> frame(std::int64_t frame) const;

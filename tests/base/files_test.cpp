@@ -47,6 +47,15 @@ TEST_F(FilesTest, CommitReplacesAFolderThatIsThere) {
   EXPECT_FALSE(fs::exists(folder_ / "attempt"));
 }
 
+TEST_F(FilesTest, ManyFilesCanWaitForTheDiskTogether) {
+  ASSERT_TRUE(write_file_unsynced(folder_ / "a", "1"));
+  ASSERT_TRUE(write_file_unsynced(folder_ / "b", "2"));
+  EXPECT_TRUE(sync_filesystem(folder_));
+  EXPECT_EQ(*read_file(folder_ / "b"), "2");
+  EXPECT_FALSE(sync_filesystem(folder_ / "none"));
+  EXPECT_FALSE(write_file_unsynced("/dev/full", "x"));
+}
+
 TEST_F(FilesTest, ErrorsNameTheFileAndTheReason) {
   const auto missing = read_file(folder_ / "none");
   ASSERT_FALSE(missing);

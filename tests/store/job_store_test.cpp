@@ -70,6 +70,22 @@ TEST_F(JobStoreTest, WhatWasCommittedIsThereAfterReopening) {
   EXPECT_DOUBLE_EQ((*store->mean_timings(10))->finish_s, 0.3);
 }
 
+TEST_F(JobStoreTest, WhatIsWrittenTogetherIsWrittenAllOrNotAtAll) {
+  JobStore store = store_with(3);
+  ASSERT_TRUE(store.write_together(JobStore::Sync::kLater, [&]() -> Status {
+    if (Status done = store.attempt_started(0, 1, 0, 1.0); !done) return done;
+    return store.attempt_started(1, 1, 1, 1.0);
+  }));
+  EXPECT_EQ(store.counts()->running, 2);
+  EXPECT_FALSE(store.write_together(JobStore::Sync::kNow, [&]() -> Status {
+    if (Status done = store.frame_done(0, 1, "hash", {}); !done) return done;
+    return store.frame_done(2, 1, "was never started", {});
+  }));
+  EXPECT_EQ(store.counts()->running, 2);
+  ASSERT_TRUE(store.frame_done(0, 1, "hash", {}));
+  EXPECT_EQ(store.counts()->done, 1);
+}
+
 TEST_F(JobStoreTest, ALateAttemptCannotCommit) {
   JobStore store = store_with(1);
   ASSERT_TRUE(store.attempt_started(0, 1, 0, 1.0));
@@ -94,6 +110,22 @@ TEST_F(JobStoreTest, FailuresAreCountedAndTold) {
   const auto failures = store.recent_failures(5);
   ASSERT_EQ(failures->size(), 2u);
   EXPECT_EQ(failures->front().message, "second");
+}
+
+TEST_F(JobStoreTest, AnAttemptCanFailBeforeItStarts) {
+  JobStore store = store_with(1);
+  ASSERT_TRUE(store.attempt_failed(0, 1, "no request could be made", true));
+  EXPECT_EQ((*store.frame(0))->state, FrameState::kFailed);
+  EXPECT_EQ((*store.frame(0))->attempts, 1);
+  EXPECT_EQ(store.attempts(0)->front().message, "no request could be made");
+}
+
+TEST_F(JobStoreTest, ALateFailureDoesNotUndoADoneFrame) {
+  JobStore store = store_with(1);
+  ASSERT_TRUE(store.attempt_started(0, 1, 0, 1.0));
+  ASSERT_TRUE(store.frame_done(0, 1, "hash", {}));
+  ASSERT_TRUE(store.attempt_failed(0, 1, "late", true));
+  EXPECT_EQ((*store.frame(0))->state, FrameState::kDone);
 }
 
 TEST_F(JobStoreTest, ADeadSchedulersFramesBecomePending) {

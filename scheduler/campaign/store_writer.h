@@ -1,0 +1,73 @@
+// Commits: brings finished frames to the disk and into place, and then into the job store.
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "base/campaign_files.h"
+#include "base/error.h"
+#include "render/frame_job.h"
+#include "store/job_store.h"
+
+namespace seedframe {
+
+struct AttemptStarted {
+  FrameJob job;
+  int worker = 0;
+  double unix_time = 0.0;
+};
+
+struct AttemptFailed {
+  FrameJob job;
+  std::string message;
+  bool final = false;
+};
+
+struct FrameFinished {
+  FrameJob job;
+  std::string pixel_hash;
+  AttemptTimings timings;
+};
+
+using StoreEvent = std::variant<AttemptStarted, AttemptFailed, FrameFinished>;
+
+/// A thread that writes what happens in a run, in order. Waiting for the disk takes as long as
+/// rendering a small frame, so nobody else waits, and what came meanwhile is written together: one
+/// wait for all files, one for the store. A row says "done" only when the frame's folder has its
+/// final name and is on the disk. The destructor writes what is left.
+class StoreWriter {
+ public:
+  /// `on_written` is called from the thread for each event, with the outcome of its batch.
+  using OnWritten = std::function<void(const StoreEvent&, const Status&)>;
+
+  /// Uses `store` alone as long as it lives.
+  StoreWriter(CampaignFiles files, JobStore& store, OnWritten on_written);
+  ~StoreWriter();
+  StoreWriter(const StoreWriter&) = delete;
+  StoreWriter& operator=(const StoreWriter&) = delete;
+
+  /// From any thread; returns at once.
+  void push(StoreEvent event);
+
+ private:
+  void work();
+  Status write(const std::vector<StoreEvent>& events);
+  Status put_into_place(const FrameJob& job) const;
+
+  CampaignFiles files_;
+  JobStore& store_;
+  OnWritten on_written_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<StoreEvent> events_;
+  bool closed_ = false;
+  std::thread thread_;
+};
+
+}  // namespace seedframe
