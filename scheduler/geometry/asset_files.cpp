@@ -92,13 +92,14 @@ Result<AssetDescription> read_asset_description(const fs::path& folder) {
   const auto json = parse_json(*text, what);
   if (!json) return forward_error(json);
   AssetDescription out;
-  for (Status status : {check_version(*json, what), read_field(*json, "name", what, out.name),
-                        read_field(*json, "description", what, out.description),
-                        read_field(*json, "category", what, out.category),
-                        read_field(*json, "triangles", what, out.triangles),
-                        read_field(*json, "smooth_angle_deg", what, out.smooth_angle_deg),
-                        read_field(*json, "slots", what, out.slots),
-                        read_field(*json, "mesh_sha256", what, out.mesh_sha256)}) {
+  for (const Status& status :
+       {check_version(*json, what), read_field(*json, "name", what, out.name),
+        read_field(*json, "description", what, out.description),
+        read_field(*json, "category", what, out.category),
+        read_field(*json, "triangles", what, out.triangles),
+        read_field(*json, "smooth_angle_deg", what, out.smooth_angle_deg),
+        read_field(*json, "slots", what, out.slots),
+        read_field(*json, "mesh_sha256", what, out.mesh_sha256)}) {
     if (!status) return forward_error(status);
   }
   if (Status status = check_description(out, folder, what); !status) return forward_error(status);

@@ -93,7 +93,7 @@ struct AssetLibrary::State {
 
 AssetLibrary::AssetLibrary(std::shared_ptr<State> state) : state_(std::move(state)) {}
 
-Result<AssetLibrary> AssetLibrary::open(std::vector<fs::path> roots) {
+Result<AssetLibrary> AssetLibrary::open(const std::vector<fs::path>& roots) {
   auto state = std::make_shared<State>();
   for (const fs::path& root : roots) {
     const auto names = find_assets(root);

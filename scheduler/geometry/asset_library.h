@@ -33,7 +33,7 @@ struct Asset {
 class AssetLibrary {
  public:
   /// A root that is not a folder is an error. Looks for names only; meshes are read by load.
-  static Result<AssetLibrary> open(std::vector<std::filesystem::path> roots);
+  static Result<AssetLibrary> open(const std::vector<std::filesystem::path>& roots);
 
   /// Sorted.
   std::vector<std::string> names() const;

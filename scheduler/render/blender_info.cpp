@@ -54,9 +54,9 @@ Result<fs::path> find_program(const std::string& program) {
 
 Result<BlenderInfo> parse_blender_version(const std::string& output) {
   // Libraries may have warned before Blender speaks.
-  static const std::regex kVersion(R"((?:^|\n)Blender (\d{1,4})\.(\d{1,4})(?:\.(\d{1,4}))?)");
+  static const std::regex version(R"((?:^|\n)Blender (\d{1,4})\.(\d{1,4})(?:\.(\d{1,4}))?)");
   std::smatch match;
-  if (!std::regex_search(output, match, kVersion)) {
+  if (!std::regex_search(output, match, version)) {
     return fail(ErrorKind::kEnvironment,
                 "expected \"Blender X.Y.Z\" from --version, got \"{}\"; {}", output.substr(0, 200),
                 kRemedy);
