@@ -20,9 +20,10 @@ Json matrix_json(const Affine& transform) {
 
 Affine matrix_from_json(const Json& numbers) {
   Affine transform;
+  std::size_t next = 0;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
-      transform(row, column) = numbers.at(static_cast<std::size_t>(4 * row + column)).get<double>();
+      transform(row, column) = numbers.at(next++).get<double>();
     }
   }
   return transform;
