@@ -29,6 +29,7 @@ import time
 HOME = pathlib.Path(__file__).resolve().parents[2]
 CONFIG = HOME / "configs" / "bench_small.yaml"
 LIMIT = 1.15
+IDLE = 0.2  # cores
 TICK_S = 1 / os.sysconf("SC_CLK_TCK")
 
 
@@ -209,6 +210,10 @@ def report(options, pairs, ratios):
               f"≤ {LIMIT}: {'met' if median <= LIMIT else 'missed'}.",
               f"CPU time of seedframe itself is {100 * share:.1f} % of that of Blender in the bare loop (median): where",
               "Blender keeps all cores busy, that is what the ratio is made of; the rest is waiting and chance.", ""]
+    others = statistics.median(pair.others for pair in pairs)
+    if others > IDLE:
+        lines += [f"The machine was not idle: other programs kept {others:.1f} of its cores busy. Measure again when it "
+                  "is.", ""]
     return "\n".join(lines)
 
 
