@@ -118,9 +118,15 @@ class BareLoop:
             shutil.rmtree(outputs, ignore_errors=True)
             outputs.mkdir()
         environment = {**os.environ, "PATH": "/usr/bin:/bin"}  # as the scheduler does
-        processes = [subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL,
-                                      stdout=subprocess.PIPE, text=True) for _, command in self.jobs]
-        outputs = [process.communicate()[0] for process in processes]
+        # Into files: Blender prints a lot, and a process whose pipe nobody reads stands still.
+        logs = [outputs / "log.txt" for outputs, _ in self.jobs]
+        processes = []
+        for log, (_, command) in zip(logs, self.jobs):
+            with log.open("w", encoding="utf-8") as stdout:
+                processes.append(subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=stdout))
+        for process in processes:
+            process.wait()
+        outputs = [log.read_text(encoding="utf-8") for log in logs]
         times = []
         for process, output in zip(processes, outputs):
             lines = [line for line in output.splitlines() if line.startswith("bare-loop ")]
