@@ -188,7 +188,7 @@ std::vector<std::string> worker_environment(
     });
     if (!changed && !starts_with_any(text, kDropped)) result.emplace_back(text);
   }
-  for (const auto& [name, value] : changes) result.push_back(name + "=" + value);
+  for (const auto& [name, value] : changes) result.push_back(fmt::format("{}={}", name, value));
   return result;
 }
 
