@@ -6,7 +6,7 @@ start of the first frame to the end of the last, so Blender's start-up counts on
 end is when the program has ended: each frame is checked, labelled, hashed, on disk and in the store. Runs
 alternate (submit, bare, submit, bare, …), since machines drift: judge the ratio of neighbours, not the times.
 
-    tests/bench/overhead.py [--pairs 9] [--frames 100] [--workers CORES] [--report FILE]
+    tests/bench/overhead.py [--pairs 15] [--frames 100] [--workers CORES] [--report FILE]
 
 Prints a table, also into the report; exits with 1 if the median ratio is above 1.15.
 """
@@ -166,7 +166,7 @@ def cpu_seconds(pid):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--pairs", type=int, default=9)
+    parser.add_argument("--pairs", type=int, default=15)
     parser.add_argument("--frames", type=int, default=100)
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     parser.add_argument("--blender", default="/usr/bin/blender")
