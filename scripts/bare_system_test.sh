@@ -27,10 +27,13 @@ mount --make-rslave "$root/dev"
 # The checkout as a stranger has it, made without needing git inside.
 rm -rf "$root/seedframe"
 git clone -q . "$root/seedframe"
-inside() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 sh -c "cd /seedframe && $1"; }
-echo "== scripts/demo.sh"
-time inside scripts/demo.sh
-echo "== scripts/demo.sh again"
-time inside scripts/demo.sh
-echo "== scripts/test.sh"
-time inside scripts/test.sh
+run() { # command: in the bare system, timed
+  echo "== $1"
+  begin=$(date +%s)
+  chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
+    sh -c "cd /seedframe && $1"
+  echo "== $1: $(($(date +%s) - begin)) s"
+}
+run scripts/demo.sh
+run "scripts/demo.sh # again"
+run scripts/test.sh
