@@ -38,3 +38,10 @@ import_part sphere 30 "Sphere of 50 mm" ""
 import_part cylinder 25 "Cylinder of 50 mm" ""
 import_part cone 25 "Cone of 50 mm" ""
 import_part torus 30 "Torus of 50 mm" ""
+
+import_part robot_standing 40 "Humanoid robot of 57 cm, standing, facing +x" robot
+import_part robot_sitting 40 "Humanoid robot, sitting with its legs stretched out, facing +x" robot
+import_part robot_lying 40 "Humanoid robot, lying on its back, head towards +x" robot
+import_part spl_ball 30 "Soccer ball of 100 mm for small robots" ball
+import_part spl_goal 40 "Soccer goal of 1.5 x 0.8 m for small robots, opening towards +x" goal
+import_part spl_field 30 "Soccer field of 9 x 6 m on a carpet of 10.4 x 7.4 m" field
