@@ -45,3 +45,9 @@ import_part robot_lying 40 "Humanoid robot, lying on its back, head towards +x" 
 import_part spl_ball 30 "Soccer ball of 100 mm for small robots" ball
 import_part spl_goal 40 "Soccer goal of 1.5 x 0.8 m for small robots, opening towards +x" goal
 import_part spl_field 30 "Soccer field of 9 x 6 m on a carpet of 10.4 x 7.4 m" field
+
+import_part mug 40 "Mug of 0.3 l, its handle towards +x"
+import_part teapot 40 "Round teapot, its spout towards +x"
+import_part spray_bottle 40 "Spray bottle with a label, its nozzle towards +x"
+import_part toy_car 35 "Toy car of 15 cm, driving towards +x"
+import_part carton 30 "Milk carton, its label towards +x"
