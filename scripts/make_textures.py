@@ -2,8 +2,8 @@
 """Makes materials/textures/: tileable PBR sets in the folder convention of ambientCG.
 
 Usage: scripts/make_textures.py [NAME...]; needs numpy. Each set is one function that returns height (in pixels), colour
-(sRGB), roughness and, for metals, metalness; normals follow from the height. Noise is made in the
-frequency domain, so every field repeats without a seam. Seeds are fixed: the same files each time.
+(sRGB; one channel: grey), roughness and, for metals, metalness; normals follow from the height. Seeds are
+fixed: the same files each time.
 """
 
 import os
@@ -11,61 +11,11 @@ import struct
 import sys
 import zlib
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
 import numpy as np
 
-SIZE = 512
-ROWS, COLUMNS = np.mgrid[0:SIZE, 0:SIZE] / SIZE
-
-
-# ---- fields ---------------------------------------------------------------------------------------
-
-def noise(random, low, high, slope=1.0, stretch_x=1.0, stretch_y=1.0):
-    """Noise of mean 0 and deviation 1 with frequencies from low to high cycles a tile; amplitude falls
-    as 1 / frequency^slope. Stretched: longer features along that axis."""
-    fy = np.fft.fftfreq(SIZE, 1.0 / SIZE)[:, None] * stretch_y
-    fx = np.fft.fftfreq(SIZE, 1.0 / SIZE)[None, :] * stretch_x
-    frequency = np.hypot(fx, fy)
-    inside = (frequency >= low) & (frequency <= high)
-    gain = np.where(inside, np.maximum(frequency, 1e-9) ** -slope, 0.0)
-    field = np.fft.ifft2(np.fft.fft2(random.standard_normal((SIZE, SIZE))) * gain).real
-    field -= field.mean()
-    return field / field.std()
-
-
-def step(field, low, high):
-    """0 below low, 1 above high, smooth between."""
-    t = np.clip((field - low) / (high - low), 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
-
-
-def blend(first, second, share):
-    first, second = np.asarray(first, float), np.asarray(second, float)
-    return first + (second - first) * share[..., None]
-
-
-def ramp(share, *colours):
-    """Colours at equal steps of share 0 to 1, linear between."""
-    stops = np.linspace(0.0, 1.0, len(colours))
-    share = np.clip(share, 0.0, 1.0)
-    return np.stack([np.interp(share, stops, [c[i] for c in colours]) for i in range(3)], axis=-1)
-
-
-def stamps(random, count, low, high, aspect=1.0, any_angle=False):
-    """Round dots (or strokes, aspect > 1) of radii low to high pixels: 1 in the middle, 0 outside."""
-    field = np.zeros((SIZE, SIZE))
-    for _ in range(count):
-        x, y = random.random(2) * SIZE
-        radius = low * (high / low) ** random.random()
-        angle = random.random() * np.pi if any_angle else 0.0
-        reach = int(radius * aspect) + 2
-        offsets = np.arange(-reach, reach + 1)
-        dy, dx = offsets[:, None] - y % 1.0, offsets[None, :] - x % 1.0
-        along = (dx * np.cos(angle) + dy * np.sin(angle)) / aspect
-        across = dy * np.cos(angle) - dx * np.sin(angle)
-        dot = np.clip(1.0 - (along ** 2 + across ** 2) / radius ** 2, 0.0, 1.0)
-        place = np.ix_((int(y) + offsets) % SIZE, (int(x) + offsets) % SIZE)
-        field[place] = np.maximum(field[place], dot)
-    return field
+from make_textures_fields import COLUMNS, ROWS, SIZE, blend, cells, noise, ramp, stamps, step, warped
 
 
 # ---- sets -----------------------------------------------------------------------------------------
@@ -205,9 +155,143 @@ def cardboard(random):
             'roughness': 0.88 + 0.02 * pulp}
 
 
+def carpet(random):
+    """Needle felt, nearly white: base_color dyes it."""
+    low = stamps(random, 2600, 0.9, 1.5, aspect=9.0, any_angle=True)
+    high = stamps(random, 2200, 0.9, 1.5, aspect=9.0, any_angle=True)
+    tufts = noise(random, 10, 60, 0.5)
+    pile = np.maximum(0.6 * low, high)
+    share = 0.5 + 0.42 * (pile - 0.35) + 0.07 * tufts + 0.02 * noise(random, 1, 6, 1.0)
+    return {'height': 2.0 * pile + 0.5 * tufts,
+            'color': ramp(share, (0.52,) * 3, (0.80,) * 3, (0.97,) * 3)[..., 0],
+            'roughness': 0.94 - 0.05 * pile, 'grades': 48}
+
+
+def rusty_metal(random):
+    spread = noise(random, 1, 30, 1.25) + 0.25 * noise(random, 20, 120, 0.7)
+    rust = step(spread, -0.9, 0.5)
+    old = step(spread, 0.3, 1.7)
+    flakes = noise(random, 8, 120, 0.8)
+    pits = stamps(random, 420, 0.8, 3.2)
+    fine = noise(random, 40, 160, 0.3)
+    metal = ramp(0.5 + 0.15 * fine + 0.1 * spread, (0.33, 0.31, 0.29), (0.50, 0.475, 0.45))
+    orange = ramp(0.5 + 0.2 * flakes, (0.25, 0.115, 0.055), (0.41, 0.205, 0.095), (0.53, 0.30, 0.155))
+    dark = ramp(0.5 + 0.2 * flakes, (0.11, 0.052, 0.035), (0.26, 0.12, 0.07))
+    colour = blend(blend(metal, orange, rust), dark, 0.85 * old)
+    return {'height': rust * (0.9 + 0.45 * flakes) + 1.2 * old - 2.0 * pits * rust,
+            'color': blend(colour, (0.09, 0.05, 0.035), 0.6 * pits * rust),
+            'roughness': 0.42 + 0.42 * rust + 0.03 * flakes, 'metalness': 1.0 - rust, 'grades': 48}
+
+
+def scratched_metal(random):
+    long = stamps(random, 110, 0.7, 1.0, aspect=130.0, any_angle=True)
+    short = stamps(random, 420, 0.6, 0.9, aspect=28.0, any_angle=True)
+    dents = stamps(random, 26, 4.0, 14.0)
+    smudge = noise(random, 1, 14, 1.2)
+    scratch = np.maximum(long, 0.8 * short)
+    share = 0.45 + 0.32 * scratch + 0.06 * smudge
+    return {'height': -0.7 * scratch - 1.6 * dents,
+            'color': ramp(share, (0.42, 0.425, 0.43), (0.60, 0.605, 0.61), (0.80, 0.80, 0.80)),
+            'roughness': np.clip(0.32 + 0.07 * smudge + 0.16 * scratch, 0.18, 0.7),
+            'metalness': np.ones((SIZE, SIZE)), 'grades': 96}
+
+
+def brick(random):
+    rows, columns, joint = 8, 3, 0.085
+    y = ROWS * rows
+    row = np.floor(y).astype(int)
+    x = COLUMNS * columns + 0.5 * (row % 2)
+    column = np.floor(x).astype(int) % columns
+    wobble = 0.010 * noise(random, 4, 40, 0.8)
+    aspect = rows / columns
+    edge_x = (0.5 - np.abs(x % 1.0 - 0.5)) * aspect
+    edge_y = 0.5 - np.abs(y % 1.0 - 0.5)
+    edge = np.minimum(edge_x, edge_y) - joint + wobble
+    face = step(edge, 0.0, 0.07)
+    shades = random.normal(0.0, 1.0, (rows, columns))[row, column]
+    warmth = random.normal(0.0, 1.0, (rows, columns))[row, column]
+    clouds, grit = noise(random, 3, 40, 1.0), noise(random, 40, 150, 0.3)
+    pores = stamps(random, 420, 0.8, 2.6) * face
+    tone = 0.5 + 0.15 * shades + 0.10 * clouds + 0.05 * grit
+    clay = ramp(tone, (0.30, 0.115, 0.075), (0.50, 0.22, 0.145), (0.64, 0.34, 0.23))
+    clay = blend(clay, (0.42, 0.27, 0.20), np.clip(0.25 + 0.2 * warmth, 0.0, 0.6))
+    mortar = ramp(0.5 + 0.12 * clouds + 0.12 * grit, (0.46, 0.445, 0.42), (0.66, 0.645, 0.61))
+    return {'height': 6.0 * face + 0.5 * clouds + 0.3 * grit - 2.5 * pores,
+            'color': blend(blend(mortar, clay, face), (0.17, 0.08, 0.06), 0.7 * pores),
+            'roughness': 0.88 - 0.06 * face + 0.02 * clouds, 'grades': 64}
+
+
+def marble(random):
+    rough = noise(random, 6, 60, 1.3)
+    veins = np.zeros((SIZE, SIZE))
+    for slant, bend, width, weight in ((1, 0.17, 0.05, 1.0), (2, 0.11, 0.03, 0.55), (3, 0.13, 0.025, 0.4)):
+        # Bands that run across the tile, bent by noise.
+        field = COLUMNS * slant + ROWS * (slant + 1) + bend * noise(random, 1, 12, 1.5) + 0.016 * rough
+        line = np.clip(1.0 - np.abs(field % 1.0 - 0.5) / (3.5 * width), 0.0, 1.0)
+        strength = step(noise(random, 1, 8, 1.0), -0.9, 1.4)
+        veins = np.maximum(veins, weight * strength * (0.6 * line ** 7 + 0.4 * line ** 1.6))
+    clouds = noise(random, 1, 40, 1.5)
+    share = 0.80 + 0.10 * clouds - 0.9 * veins
+    return {'height': -0.25 * veins,
+            'color': ramp(share, (0.30, 0.30, 0.31), (0.60, 0.60, 0.605), (0.83, 0.825, 0.81), (0.93, 0.925, 0.91)),
+            'roughness': 0.17 + 0.06 * veins + 0.012 * clouds}
+
+
+def granite(random):
+    first, second, number = cells(random, 70)
+    right, down = 1.8 * noise(random, 20, 120, 0.4), 1.8 * noise(random, 20, 120, 0.4)
+    first, second, number = (warped(field, right, down) for field in (first, second, number))
+    kind = random.random(70 * 70)[number]
+    tone = random.normal(0.0, 1.0, 70 * 70)[number]
+    inner = step(second - first, 0.0, 0.22)
+    colour = np.empty((SIZE, SIZE, 3))
+    # Feldspar, quartz, plagioclase, mica.
+    for low, high, dark, light in ((0.0, 0.42, (0.52, 0.37, 0.32), (0.68, 0.52, 0.46)),
+                                   (0.42, 0.68, (0.48, 0.475, 0.47), (0.64, 0.635, 0.63)),
+                                   (0.68, 0.84, (0.70, 0.68, 0.655), (0.83, 0.81, 0.79)),
+                                   (0.84, 1.01, (0.045, 0.045, 0.05), (0.13, 0.125, 0.125))):
+        chosen = (kind >= low) & (kind < high)
+        colour[chosen] = ramp(0.5 + 0.3 * tone + 0.06 * noise(random, 30, 120, 0.3), dark, light)[chosen]
+    flecks = stamps(random, 900, 0.8, 2.6, aspect=1.8, any_angle=True) > 0.3
+    colour = blend(colour * (0.82 + 0.18 * inner)[..., None], (0.07, 0.068, 0.07), 0.85 * flecks)
+    mica = (kind >= 0.84) | flecks
+    return {'height': 0.12 * inner - 0.2 * mica, 'color': colour, 'roughness': 0.20 + 0.12 * mica, 'grades': 48}
+
+
+def rubber_mat(random):
+    count = 8
+    x, y = COLUMNS * count, ROWS * count
+    dx, dy = x % 1.0 - 0.5, y % 1.0 - 0.5
+    stud = step(0.36 - np.hypot(dx, dy), 0.0, 0.05)
+    ring = np.abs(np.hypot(dx, dy) - 0.36) < 0.03
+    grain = noise(random, 30, 140, 0.3)
+    dust = np.clip(0.35 + 0.3 * noise(random, 1, 30, 1.0) - 0.5 * stud + 0.15 * ring, 0.0, 1.0)
+    scuffs = stamps(random, 60, 0.8, 1.3, aspect=24.0, any_angle=True) * stud
+    share = 0.25 + 0.5 * dust + 0.03 * grain + 0.35 * scuffs + 0.10 * stud
+    return {'height': 5.0 * stud + 0.12 * grain,
+            'color': ramp(share, (0.055, 0.055, 0.057), (0.115, 0.114, 0.112), (0.24, 0.235, 0.225)),
+            'roughness': 0.70 + 0.18 * dust - 0.05 * stud, 'grades': 48}
+
+
+def leather(random):
+    right, down = 1.6 * noise(random, 4, 24, 0.8), 1.6 * noise(random, 4, 24, 0.8)
+    first, second, _ = cells(random, 38)
+    pebble = step(warped(second - first, right, down), 0.02, 0.42)
+    creases = warped(noise(random, 2, 12, 1.0), right, down)
+    crease = (1.0 - np.clip(np.abs(creases) / 0.10, 0.0, 1.0)) * step(noise(random, 1, 6, 1.0), 0.0, 1.0)
+    clouds = noise(random, 1, 16, 1.2)
+    share = 0.34 + 0.32 * pebble + 0.09 * clouds - 0.25 * crease
+    return {'height': 2.4 * pebble - 1.6 * crease,
+            'color': ramp(share, (0.13, 0.062, 0.032), (0.33, 0.165, 0.085), (0.52, 0.29, 0.16)),
+            'roughness': 0.62 - 0.16 * pebble + 0.02 * clouds, 'grades': 48}
+
+
 SETS = [('Concrete01', concrete, 11), ('Planks01', planks, 12), ('Plywood01', plywood, 13),
         ('BrushedMetal01', brushed_metal, 14), ('PaintedMetal01', painted_metal, 15),
-        ('Fabric01', fabric, 16), ('DiamondPlate01', diamond_plate, 17), ('Cardboard01', cardboard, 18)]
+        ('Fabric01', fabric, 16), ('DiamondPlate01', diamond_plate, 17), ('Cardboard01', cardboard, 18),
+        ('Carpet01', carpet, 19), ('RustyMetal01', rusty_metal, 20), ('ScratchedMetal01', scratched_metal, 21),
+        ('Brick01', brick, 22), ('Marble01', marble, 23), ('Granite01', granite, 24),
+        ('RubberMat01', rubber_mat, 25), ('Leather01', leather, 26)]
 
 
 # ---- files ----------------------------------------------------------------------------------------
@@ -220,8 +304,11 @@ def normals(height):
     return normal / np.linalg.norm(normal, axis=-1, keepdims=True)
 
 
-def to_bytes(values):
-    return np.floor(np.clip(values, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+def to_bytes(values, grades=256):
+    """Fewer grades than 256 make smaller files; 128, the level of a plain normal, stays one of them."""
+    size = 256.0 / grades
+    rounded = np.floor((np.clip(values, 0.0, 1.0) * 255.0 + 0.5) / size + (0.5 if grades < 256 else 0.0)) * size
+    return np.clip(rounded, 0.0, 255.0).astype(np.uint8)
 
 
 def filtered_row(row, before, bytes_a_pixel):
@@ -254,6 +341,7 @@ def write_png(path, pixels):
 
 
 def write_set(root, name, fields):
+    """grades, if given: of the normals and the roughness; the colour has twice as many."""
     folder = os.path.join(root, name)
     os.makedirs(folder, exist_ok=True)
     images = {'Color': fields['color'], 'Roughness': fields['roughness'],
@@ -263,7 +351,8 @@ def write_set(root, name, fields):
     total = 0
     for map_name, values in images.items():
         path = os.path.join(folder, f'{name}_{map_name}.png')
-        write_png(path, to_bytes(values))
+        grades = 256 if map_name == 'Metalness' else fields.get('grades', 256)
+        write_png(path, to_bytes(values, min(256, 2 * grades) if map_name == 'Color' else grades))
         total += os.path.getsize(path)
     print(f'{name}: {total / 1024:.0f} KiB', flush=True)
 
