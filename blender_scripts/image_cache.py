@@ -17,12 +17,21 @@ class ImageCache:
     def trim(self):
         self._cache.trim()
 
-    def get(self, sha256, is_color, paths):
-        # The colour space belongs to Blender's image, so one file may be two of them.
-        return self._cache.get((sha256, is_color), lambda: _load(sha256, is_color, paths))
+    def get(self, sha256, use, paths):
+        """An image for one of the uses in _COLOR_SPACES."""
+        # The colour space belongs to Blender's image, so one file may be several of them.
+        return self._cache.get((sha256, use), lambda: _load(sha256, use, paths))
 
 
-def _load(sha256, is_color, paths):
+# "Linear" is linear Rec.709; Blender 4 calls it so.
+_COLOR_SPACES = {
+    "color": ("sRGB",),
+    "data": ("Non-Color",),
+    "environment": ("Linear", "Linear Rec.709"),
+}
+
+
+def _load(sha256, use, paths):
     if sha256 not in paths:
         raise ValueError(f"texture {sha256} is in the frame spec but not in the request's table")
     path = paths[sha256]
@@ -31,6 +40,16 @@ def _load(sha256, is_color, paths):
     if width == 0 or height == 0:
         bpy.data.images.remove(image)
         raise ValueError(f"{path}: no image that Blender can read")
-    image.colorspace_settings.name = "sRGB" if is_color else "Non-Color"
+    _set_color_space(image, _COLOR_SPACES[use])
     image.alpha_mode = "NONE"
     return image, width * height
+
+
+def _set_color_space(image, names):
+    for name in names:
+        try:
+            image.colorspace_settings.name = name
+            return
+        except TypeError:  # this Blender has no such colour space
+            continue
+    raise ValueError(f"this Blender has none of the colour spaces {names}")

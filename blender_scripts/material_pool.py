@@ -76,7 +76,7 @@ class _Tree:
         if self._repeat:
             self._repeat.default_value = (spec["texture_repeat"], spec["texture_repeat"], 1.0)
         for kind, node in self._images.items():
-            node.image = images.get(spec["textures"][kind], kind == "color", paths)
+            node.image = images.get(spec["textures"][kind], "color" if kind == "color" else "data", paths)
 
     def _input(self, name):
         inputs = self._principled.inputs

@@ -5,6 +5,11 @@ import os
 import bpy
 
 
+def sharp_output(output):
+    """Where the passes without depth of field go, beside those with it."""
+    return output + ".sharp"
+
+
 class PassRenderer:
     def __init__(self, scene):
         self._scene = scene
@@ -40,7 +45,6 @@ def _set_constants(scene):
     render = scene.render
     render.engine = "CYCLES"
     render.resolution_percentage = 100
-    render.pixel_aspect_x = render.pixel_aspect_y = 1.0
     render.film_transparent = False
     render.dither_intensity = 0.0
     render.use_motion_blur = False

@@ -5,7 +5,7 @@ import json
 import os
 
 PROTOCOL = 1
-SPEC_VERSION = 1
+SPEC_VERSION = 2
 
 
 class ProtocolError(Exception):

@@ -15,7 +15,7 @@ sys.dont_write_bytecode = True  # the folder may belong to somebody else
 import bpy  # noqa: E402
 
 import cpu_kernel  # noqa: E402
-from passes import PassRenderer  # noqa: E402
+from passes import PassRenderer, sharp_output  # noqa: E402
 from protocol import SPEC_VERSION, Channel, Done, Failed, Ready  # noqa: E402
 from scene_builder import SceneBuilder  # noqa: E402
 
@@ -45,6 +45,8 @@ def _answer(request, builder, renderer):
         builder.build(request.spec, request.meshes, request.textures)
         built = time.perf_counter()
         renderer.render(request.spec["render"], request.output)
+        if builder.make_sharp():  # the lens disturbs all passes: labels come from a pinhole
+            renderer.render({**request.spec["render"], "samples": 1}, sharp_output(request.output))
     except MemoryError:
         raise  # a fresh worker may have enough
     except Exception as error:  # one bad frame must not cost the worker

@@ -11,6 +11,7 @@ from mathutils import Matrix
 from image_cache import ImageCache
 from material_pool import MaterialPool
 from mesh_cache import MeshCache
+from world_builder import WorldBuilder
 
 _SENSOR_MM = 36.0
 _LIGHT_TYPES = {"point": "POINT", "sun": "SUN", "spot": "SPOT", "area": "AREA"}
@@ -21,8 +22,8 @@ class SceneBuilder:
         self.scene = bpy.context.scene
         _empty_the_file()
         self._camera = self._add_camera()
-        self._background = self._add_world()
         self._images = ImageCache()
+        self._world = WorldBuilder(self.scene, self._images)
         self._meshes = MeshCache()
         self._materials = MaterialPool(self._images)
         self._nothing = bpy.data.meshes.new("nothing")
@@ -33,9 +34,8 @@ class SceneBuilder:
     def build(self, spec, mesh_paths, texture_paths):
         for cache in (self._meshes, self._images, self._materials):
             cache.next_frame()
-        self._set_camera(spec["camera"], spec["render"]["width"])
-        self._background.inputs["Color"].default_value = (*spec["world"]["color"], 1.0)
-        self._background.inputs["Strength"].default_value = spec["world"]["strength"]
+        self._set_camera(spec["camera"], spec["render"])
+        self._world.set(spec["world"], texture_paths)
         materials = [self._materials.get(m, texture_paths) for m in spec["materials"]]
         self._instances.resize(len(spec["instances"]), self._nothing)
         for index, instance in enumerate(spec["instances"]):
@@ -52,19 +52,35 @@ class SceneBuilder:
         camera.data.sensor_width = _SENSOR_MM
         return camera
 
-    def _add_world(self):
-        world = bpy.data.worlds.new("world")
-        self.scene.world = world
-        world.use_nodes = True
-        return world.node_tree.nodes["Background"]
-
-    def _set_camera(self, spec, width):
-        lens_mm = spec["focal_px"] * _SENSOR_MM / width
+    def _set_camera(self, spec, render):
+        focal_x, focal_y = spec["focal_px"]
+        width, height = render["width"], render["height"]
+        lens_mm = focal_x * _SENSOR_MM / width
         if lens_mm < 1.0:  # Blender would clamp it without a word
-            raise ValueError(f"focal length of {spec['focal_px']} px is below 1/36 of the width")
-        self._camera.data.lens = lens_mm
-        self._camera.data.clip_start = spec["clip_start_m"]
-        self._camera.data.clip_end = spec["clip_end_m"]
+            raise ValueError(f"focal length of {focal_x} px is below 1/36 of the width")
+        camera = self._camera.data
+        camera.lens = lens_mm
+        # Pixels that are not square make the two focal lengths differ; neither aspect may be below 1.
+        self.scene.render.pixel_aspect_x = max(1.0, focal_y / focal_x)
+        self.scene.render.pixel_aspect_y = max(1.0, focal_x / focal_y)
+        center_x, center_y = spec["center_px"]
+        camera.shift_x = ((width - 1) / 2 - center_x) / width
+        camera.shift_y = (center_y - (height - 1) / 2) / width * focal_x / focal_y
+        camera.clip_start = spec["clip_start_m"]
+        camera.clip_end = spec["clip_end_m"]
+        camera.dof.use_dof = spec["aperture_radius_m"] > 0.0
+        if camera.dof.use_dof:
+            camera.dof.focus_object = None
+            camera.dof.focus_distance = spec["focus_distance_m"]
+            camera.dof.aperture_fstop = 0.001 * lens_mm / (2.0 * spec["aperture_radius_m"])
+            camera.dof.aperture_blades = 0
+            camera.dof.aperture_ratio = 1.0
+
+    def make_sharp(self):
+        """Turns depth of field off; False when there was none."""
+        was_on = self._camera.data.dof.use_dof
+        self._camera.data.dof.use_dof = False
+        return was_on
 
     def _set_instance(self, index, spec, materials, mesh_paths):
         mesh = self._meshes.get(spec["mesh"], mesh_paths)
@@ -78,6 +94,9 @@ class SceneBuilder:
         for slot, material in zip(item.material_slots, spec["materials"]):
             slot.link = "OBJECT"  # the mesh is shared between instances
             slot.material = materials[material]
+        hidden_from = spec["hidden_from"]
+        for kind in ("camera", "diffuse", "glossy", "transmission", "shadow"):
+            setattr(item, f"visible_{kind}", kind not in hidden_from)
 
     def _set_lights(self, specs):
         # Objects need some data when they are made, so the data comes first.

@@ -10,7 +10,8 @@ cd "$(dirname "$0")/.."
 packages="
   ca-certificates ccache clang-format clang-tidy cmake g++ git ninja-build pkg-config
   blender python3 python3-numpy
-  libboost-dev libcli11-dev libdraco-dev libeigen3-dev libexpected-dev libfmt-dev libmuparser-dev
+  libboost-dev libcgal-dev libcli11-dev libdraco-dev libeigen3-dev libembree-dev libexpected-dev
+  libfmt-dev
   libopencolorio-dev libopenexr-dev libpng-dev librandom123-dev libsqlite3-dev libssl-dev
   libyaml-cpp-dev nlohmann-json3-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev"

@@ -1,5 +1,6 @@
 #include "base/canonical_json.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -7,9 +8,8 @@
 #include <cstdlib>
 
 namespace seedframe {
-namespace {
 
-void append_number(std::string& out, double value) {
+void append_canonical(std::string& out, double value) {
   if (!std::isfinite(value)) {
     std::fputs("canonical_json: a number is not finite\n", stderr);
     std::abort();
@@ -22,6 +22,21 @@ void append_number(std::string& out, double value) {
                          : std::to_chars(text.begin(), text.end(), value);
   out.append(text.data(), end.ptr);
 }
+
+void append_canonical(std::string& out, std::string_view text) {
+  const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
+    return c >= ' ' && c <= '~' && c != '"' && c != '\\';
+  });
+  if (!plain) {
+    out += Json(text).dump();
+    return;
+  }
+  out += '"';
+  out += text;
+  out += '"';
+}
+
+namespace {
 
 struct Layout {
   bool readable;
@@ -42,7 +57,7 @@ bool is_flat(const Json& array) {
 void append(std::string& out, const Json& value, Layout layout, int depth) {
   switch (value.type()) {
     case Json::value_t::number_float:
-      append_number(out, value.get<double>());
+      append_canonical(out, value.get<double>());
       return;
     case Json::value_t::array: {
       const bool lines = layout.readable && !is_flat(value);

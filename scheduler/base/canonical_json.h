@@ -17,6 +17,11 @@ using Json = nlohmann::json;
 /// JSON: they are a programmer's mistake here and abort.
 std::string canonical_json(const Json& value);
 
+/// Appends a number, or a text with its quotes, as canonical_json writes it: for writers of large
+/// values that need no tree.
+void append_canonical(std::string& out, double value);
+void append_canonical(std::string& out, std::string_view text);
+
 /// The same value laid out for people, two spaces a level, with the same numbers; ends in a
 /// newline.
 std::string readable_json(const Json& value);

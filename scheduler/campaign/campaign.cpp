@@ -9,8 +9,7 @@ namespace {
 constexpr const char* kConfigFileKey = "config_file";  // absolute: the job store is not the dataset
 constexpr const char* kOverridesKey = "overrides";
 
-Status write_campaign(const CampaignFiles& files, const PreparedCampaign& prepared,
-                      const std::vector<FrameIdentity>& frames) {
+Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   for (const fs::path& folder : {files.root(), files.frames(), files.logs(), files.work()}) {
     if (Status made = make_folders(folder); !made) return made;
   }
@@ -27,25 +26,39 @@ Status write_campaign(const CampaignFiles& files, const PreparedCampaign& prepar
   const std::string file = fs::absolute(prepared.source.file, error).string();
   if (Status set = store->set_meta(kConfigFileKey, file); !set) return set;
   if (Status set = store->set_meta(kOverridesKey, canonical_json(overrides)); !set) return set;
-  std::size_t next = 0;
+  std::int64_t next = 0;
   return store->add_frames([&]() -> Result<std::optional<FrameRow>> {
-    if (next == frames.size()) return std::nullopt;
+    if (next == prepared.expander.frame_count()) return std::nullopt;
+    Result<ExpandedFrame> expanded = prepared.expander.expand(next);
+    if (!expanded) return forward_error(expanded);
     FrameRow row;
-    row.frame = static_cast<std::int64_t>(next);
-    row.scene = frames[next].scene;
-    row.frame_id = frames[next].id;
-    ++next;
+    row.frame = next++;
+    row.scene = expanded->scene;
+    row.frame_id = std::move(expanded->id);
     return row;
   });
 }
 
+/// All frames come into the store in one transaction: a store without frames is what an interrupted
+/// create_campaign left.
+bool is_unfinished(const fs::path& folder) {
+  std::error_code error;
+  const fs::path path = CampaignFiles(folder).store();
+  if (!fs::exists(path, error)) return false;
+  const Result<JobStore> store = JobStore::open(path);
+  if (!store) return false;
+  const auto counts = store->counts();
+  return counts && counts->total() == 0;
+}
+
 }  // namespace
 
-Result<Campaign> create_campaign(const fs::path& folder, const PreparedCampaign& prepared,
-                                 const std::vector<FrameIdentity>& frames) {
+Result<Campaign> create_campaign(const fs::path& folder, PreparedCampaign& prepared) {
   std::error_code error;
   const bool existed = fs::exists(folder, error);
-  if (existed && (!fs::is_directory(folder, error) || !fs::is_empty(folder, error))) {
+  if (existed && is_unfinished(folder)) {
+    remove_campaign(folder);
+  } else if (existed && (!fs::is_directory(folder, error) || !fs::is_empty(folder, error))) {
     const bool is_campaign = fs::exists(CampaignFiles(folder).store(), error);
     return fail(ErrorKind::kInput, "{} {}", folder.string(),
                 is_campaign ? "holds a campaign already: 'seedframe resume' goes on with it, or "
@@ -53,12 +66,18 @@ Result<Campaign> create_campaign(const fs::path& folder, const PreparedCampaign&
                             : "is not empty: give another folder with -o");
   }
   const CampaignFiles files(folder);
-  if (Status written = write_campaign(files, prepared, frames); !written) {
-    if (!existed) fs::remove_all(folder, error);
+  if (Status written = write_campaign(files, prepared); !written) {
+    remove_campaign(folder);
+    if (existed) fs::create_directory(folder, error);
     // The user chose this place, so it is for the user to mend.
     return tl::unexpected(Error{ErrorKind::kInput, written.error().message});
   }
   return open_campaign(folder);
+}
+
+void remove_campaign(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
 }
 
 Result<Campaign> open_campaign(const fs::path& folder) {

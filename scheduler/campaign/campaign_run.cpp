@@ -93,30 +93,35 @@ Result<RenderRequest> CampaignRun::request(const FrameJob& job) {
   const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
   if (Status made = make_folders(attempt); !made) return forward_error(made);
   RenderRequest request;
-  request.spec = canonical_json(to_json(expanded->spec));
+  request.spec = canonical_text(expanded->spec);
   std::error_code ignored;
   request.output = fs::absolute(rendered_passes(attempt), ignored);
-  auto meshes = write_mesh_buffers(expanded->spec);
+  auto meshes = write_mesh_buffers(*expanded);
   if (!meshes) return forward_error(meshes);
   request.meshes = std::move(*meshes);
+  const auto add_image = [&](const std::string& sha256) {
+    request.textures[sha256] =
+        fs::absolute(prepared_.expander.image_files().at(sha256), ignored);
+  };
   for (const MaterialSpec& material : expanded->spec.materials) {
-    for (const auto& texture : material.textures) {
-      const fs::path& file = prepared_.expander.textures().at(texture.second);
-      request.textures[texture.second] = fs::absolute(file, ignored);
-    }
+    for (const auto& texture : material.textures) add_image(texture.second);
   }
+  if (!expanded->spec.world.hdri.empty()) add_image(expanded->spec.world.hdri);
   tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), attempt};
   return request;
 }
 
-Result<std::map<std::string, fs::path>> CampaignRun::write_mesh_buffers(const FrameSpec& spec) {
+Result<std::map<std::string, fs::path>> CampaignRun::write_mesh_buffers(
+    const ExpandedFrame& frame) {
   std::map<std::string, fs::path> paths;
   std::error_code error;
-  for (const InstanceSpec& instance : spec.instances) {
+  for (const InstanceSpec& instance : frame.spec.instances) {
     if (paths.contains(instance.mesh)) continue;
     const fs::path path = campaign_.files.mesh_buffer(instance.mesh);
     if (!fs::exists(path, error)) {
-      const auto& buffer = prepared_.expander.mesh_buffers().at(instance.mesh);
+      const auto& known = prepared_.expander.mesh_buffers();
+      const auto found = known.find(instance.mesh);
+      const auto& buffer = found != known.end() ? found->second : frame.ground_buffer;
       // Scratch: nobody reads it after a crash.
       if (Status written = write_file_unsynced(path, *buffer); !written) {
         return forward_error(written);

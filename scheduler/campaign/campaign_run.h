@@ -62,7 +62,8 @@ class CampaignRun : public RenderClient {
   void attempt_failed(const FrameJob& job, const std::string& message, bool final) override;
   void worker_ready(int worker, const ReadyMessage& ready) override;
 
-  Result<std::map<std::string, std::filesystem::path>> write_mesh_buffers(const FrameSpec& spec);
+  Result<std::map<std::string, std::filesystem::path>> write_mesh_buffers(
+      const ExpandedFrame& frame);
   /// Takes as long as finishing several frames, so it is done while Blender starts.
   void load_view_tables();
   void finish(const FrameJob& job, const RenderTimings& timings, const FinishTask& task);

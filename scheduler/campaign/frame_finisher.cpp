@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kRenderedPasses = "rendered.exr";
+constexpr const char* kSharpPasses = "rendered.exr.sharp";
 
 /// Writes the files of one frame and keeps account of them for the manifest.
 class FrameWriter {
@@ -67,6 +68,22 @@ PassExpectation expectation(const FrameSpec& spec) {
   return expected;
 }
 
+/// The passes of a frame. Depth of field disturbs all but the picture, so then the worker renders
+/// the rest once more without it.
+Result<FramePasses> read_frame_passes(const FinishTask& task) {
+  const PassExpectation expected = expectation(task.spec);
+  Result<FramePasses> passes = read_passes(rendered_passes(task.attempt_folder), expected);
+  if (!passes || task.spec.camera.aperture_radius_m == 0.0) return passes;
+  const fs::path path = task.attempt_folder / kSharpPasses;
+  Result<FramePasses> sharp = read_passes(path, expected);
+  if (!sharp) return sharp;
+  sharp->combined = std::move(passes->combined);
+  sharp->pixel_hashes["combined"] = passes->pixel_hashes["combined"];
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  return sharp;
+}
+
 void write_passes(const fs::path& rendered, const FramePasses& passes, FrameWriter& writer) {
   writer.make(frame_files::kPasses,
               [&](const fs::path& path) { return copy_without_metadata(rendered, path); });
@@ -89,7 +106,7 @@ fs::path rendered_passes(const fs::path& attempt_folder) {
 
 Result<std::string> finish_frame(const FinishTask& task, const ColorManagement& color) {
   const fs::path rendered = rendered_passes(task.attempt_folder);
-  const Result<FramePasses> passes = read_passes(rendered, expectation(task.spec));
+  const Result<FramePasses> passes = read_frame_passes(task);
   if (!passes) return forward_error(passes);
   const Result<FrameLabels> labels = make_labels(task.spec, passes->instance_ids);
   if (!labels) return forward_error(labels);

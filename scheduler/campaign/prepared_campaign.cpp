@@ -1,5 +1,7 @@
 #include "campaign/prepared_campaign.h"
 
+#include <algorithm>
+
 #include "base/files.h"
 
 namespace seedframe {
@@ -28,21 +30,42 @@ Result<PreparedCampaign> prepare(CampaignSource source) {
   if (!assets) return forward_error(assets);
   Result<MaterialLibrary> materials = MaterialLibrary::open(material_folders, config->materials);
   if (!materials) return forward_error(materials);
-  Result<SceneExpander> expander =
-      SceneExpander::compile(*config, std::move(*assets), std::move(*materials));
+  std::optional<Graphs> graphs;
+  if (config->graphs) {
+    Result<Graphs> opened = Graphs::open(*config->graphs);
+    if (!opened) return forward_error(opened);
+    config->scenes = opened->size();
+    graphs = std::move(*opened);
+  }
+  Result<SceneExpander> expander = SceneExpander::compile(*config, std::move(*assets),
+                                                          std::move(*materials), std::move(graphs));
   if (!expander) return forward_error(expander);
   return PreparedCampaign{std::move(source), std::move(*config), std::move(*expander)};
 }
 
-Result<std::vector<FrameIdentity>> expand_all(SceneExpander& expander) {
-  std::vector<FrameIdentity> frames;
-  frames.reserve(static_cast<std::size_t>(expander.frame_count()));
-  for (std::int64_t frame = 0; frame < expander.frame_count(); ++frame) {
-    const Result<ExpandedFrame> expanded = expander.expand(frame);
+Result<CampaignSize> expand_all(SceneExpander& expander, const ExpansionWishes& wishes,
+                                const std::function<Status(const ExpandedFrame&)>& visit) {
+  CampaignSize size{expander.frame_count(), SIZE_MAX, 0, 0};
+  for (std::int64_t frame = 0; frame < size.frames; ++frame) {
+    const Result<ExpandedFrame> expanded = expander.expand(frame, wishes);
     if (!expanded) return forward_error(expanded);
-    frames.push_back({expanded->scene, expanded->id});
+    const std::size_t instances = expanded->spec.instances.size();
+    size.least_instances = std::min(size.least_instances, instances);
+    size.most_instances = std::max(size.most_instances, instances);
+    size.attempts += expanded->attempts;
+    if (!visit) continue;
+    if (Status visited = visit(*expanded); !visited) return forward_error(visited);
   }
-  return frames;
+  return size;
+}
+
+std::string describe_constraints(const SceneExpander& expander) {
+  std::string text;
+  for (const ConstraintTally& tally : expander.constraint_tallies()) {
+    text += fmt::format("constraint {}: met in {} of {} draws\n", tally.name, tally.met,
+                        tally.checked);
+  }
+  return text;
 }
 
 }  // namespace seedframe

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,11 +32,20 @@ struct PreparedCampaign {
 
 Result<PreparedCampaign> prepare(CampaignSource source);
 
-/// Scene and id of every frame, in order; an error if any frame cannot be expanded.
-struct FrameIdentity {
-  std::int64_t scene = 0;
-  std::string id;
+/// What expanding every frame tells.
+struct CampaignSize {
+  std::int64_t frames = 0;
+  std::size_t least_instances = 0;
+  std::size_t most_instances = 0;
+  std::int64_t attempts = 0;  ///< to meet the constraints, over all frames
 };
-Result<std::vector<FrameIdentity>> expand_all(SceneExpander& expander);
+
+/// Expands every frame and keeps none; an error if any cannot be expanded. `visit`, if given, sees
+/// each.
+Result<CampaignSize> expand_all(SceneExpander& expander, const ExpansionWishes& wishes,
+                                const std::function<Status(const ExpandedFrame&)>& visit = {});
+
+/// "ball_seen: met by 812 of 1020", a line for each constraint.
+std::string describe_constraints(const SceneExpander& expander);
 
 }  // namespace seedframe

@@ -58,7 +58,7 @@ Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCa
     overrides.push_back(change.path + "=" + change.value);
   }
   Json textures = Json::object();
-  for (const auto& [sha256, file] : prepared.expander.textures()) {
+  for (const auto& [sha256, file] : prepared.expander.image_files()) {
     textures[file.parent_path().filename().string() + "/" + file.filename().string()] = sha256;
   }
   Json json = {{"version", kVersion},

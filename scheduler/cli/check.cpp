@@ -1,5 +1,8 @@
 // seedframe check: is this config right? Renders and writes nothing.
 
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -15,25 +18,31 @@ namespace {
 struct CheckArguments {
   std::string config;
   std::vector<std::string> set;
+  std::string graphs;
   bool json = false;
 };
 
-struct CampaignSize {
-  std::int64_t frames = 0;
-  std::size_t least_instances = 0;
-  std::size_t most_instances = 0;
-};
-
-Result<CampaignSize> measure(SceneExpander& expander) {
-  CampaignSize size{expander.frame_count(), SIZE_MAX, 0};
-  for (std::int64_t frame = 0; frame < size.frames; ++frame) {
-    const Result<ExpandedFrame> expanded = expander.expand(frame);
-    if (!expanded) return forward_error(expanded);
-    const std::size_t instances = expanded->spec.instances.size();
-    size.least_instances = std::min(size.least_instances, instances);
-    size.most_instances = std::max(size.most_instances, instances);
-  }
+/// Expands all frames; with a file to write to, their variables go there as JSON lines.
+Result<CampaignSize> check_frames(SceneExpander& expander, const std::string& graphs) {
+  if (graphs.empty()) return expand_all(expander, {.id = false});
+  std::ofstream out(graphs);
+  const auto visit = [&](const ExpandedFrame& frame) -> Status {
+    out << canonical_json(frame.graph) << '\n';
+    if (out) return {};
+    return fail(ErrorKind::kInput, "cannot write {}: {}", graphs, std::strerror(errno));
+  };
+  Result<CampaignSize> size = expand_all(expander, {.id = false, .graph = true}, visit);
+  out.flush();
+  if (size && !out) return fail(ErrorKind::kInput, "cannot write {}", graphs);
   return size;
+}
+
+Json constraints_json(const SceneExpander& expander) {
+  Json constraints = Json::object();
+  for (const ConstraintTally& tally : expander.constraint_tallies()) {
+    constraints[tally.name] = {{"checked", tally.checked}, {"met", tally.met}};
+  }
+  return constraints;
 }
 
 int check(const CheckArguments& arguments) {
@@ -47,7 +56,7 @@ int check(const CheckArguments& arguments) {
   if (!source) return report(source.error());
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (!prepared) return report(prepared.error());
-  const Result<CampaignSize> size = measure(prepared->expander);
+  const Result<CampaignSize> size = check_frames(prepared->expander, arguments.graphs);
   if (!size) return report(size.error());
   const CampaignConfig& config = prepared->config;
   if (arguments.json) {
@@ -58,15 +67,18 @@ int check(const CheckArguments& arguments) {
                                     {"categories", config.categories},
                                     {"least_instances", size->least_instances},
                                     {"most_instances", size->most_instances},
+                                    {"attempts", size->attempts},
+                                    {"constraints", constraints_json(prepared->expander)},
                                     {"assets", prepared->expander.asset_hashes()}}));
     return kExitOk;
   }
   fmt::print(
       "{} is good: {} scenes × {} frames, {} to {} instances a frame, {} categories, {} assets, {} "
-      "textures\n'seedframe submit {}' renders it\n",
+      "images\n'seedframe submit {}' renders it\n",
       arguments.config, config.scenes, config.frames_per_scene, size->least_instances,
       size->most_instances, config.categories.size(), prepared->expander.asset_hashes().size(),
-      prepared->expander.textures().size(), arguments.config);
+      prepared->expander.image_files().size(), arguments.config);
+  fmt::print("{}", describe_constraints(prepared->expander));
   return kExitOk;
 }
 
@@ -79,6 +91,8 @@ void add_check_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("CONFIG", arguments->config, "campaign config (docs/config.md)")->required();
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
       ->allow_extra_args(false);
+  verb->add_option("--graphs", arguments->graphs,
+                   "write each frame's variables to this file, as JSON lines (docs/formats/graphs.md)");
   verb->add_flag("--json", arguments->json, "print what was found as JSON");
   verb->footer("Example: seedframe check configs/parts.yaml");
   verb->callback(

@@ -37,7 +37,7 @@ Result<Explanation> explain_frame(const Campaign& campaign, std::int64_t frame) 
   if (!source) return forward_error(source);
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (!prepared) return forward_error(prepared);
-  Result<ExpandedFrame> expanded = prepared->expander.expand(frame, /*record_draws=*/true);
+  Result<ExpandedFrame> expanded = prepared->expander.expand(frame, {.draws = true});
   if (!expanded) return forward_error(expanded);
   auto attempts = campaign.store.attempts(frame);
   if (!attempts) return forward_error(attempts);

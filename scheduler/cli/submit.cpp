@@ -40,9 +40,10 @@ void print_plan(const PreparedCampaign& prepared, const RunSetup& setup, std::in
   fmt::print("{} scenes × {} frames: {} of {} frames would be rendered, {} × {} at {} samples\n",
              config.scenes, config.frames_per_scene, frames, config.frame_count(),
              config.render.width, config.render.height, config.render.samples);
-  fmt::print("seed {}, {} categories, {} meshes, {} textures\n", config.seed,
+  fmt::print("seed {}, {} categories, {} meshes, {} images\n", config.seed,
              config.categories.size(), prepared.expander.mesh_buffers().size(),
-             prepared.expander.textures().size());
+             prepared.expander.image_files().size());
+  fmt::print("{}", describe_constraints(prepared.expander));
   fmt::print("Blender {}: {} workers of {} threads\n", setup.blender.version, setup.options.workers,
              setup.options.threads);
   fmt::print("into {} (nothing was written)\n", folder.string());
@@ -54,18 +55,24 @@ int submit(const SubmitArguments& arguments) {
   const std::filesystem::path folder =
       arguments.output.empty() ? std::filesystem::path("results") / prepared->config.name
                                : std::filesystem::path(arguments.output);
-  Result<std::vector<FrameIdentity>> frames = expand_all(prepared->expander);
-  if (!frames) return report(frames.error());
-  const auto all = static_cast<std::int64_t>(frames->size());
+  const std::int64_t all = prepared->config.frame_count();
   const std::int64_t wanted = arguments.frames > 0 ? std::min(arguments.frames, all) : all;
-  Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
-  if (!setup) return report(setup.error());
   if (arguments.dry_run) {
+    const Result<CampaignSize> size = expand_all(prepared->expander, {.id = false});
+    if (!size) return report(size.error());
+    const Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
+    if (!setup) return report(setup.error());
     print_plan(*prepared, *setup, wanted, folder);
     return kExitOk;
   }
-  Result<Campaign> campaign = create_campaign(folder, *prepared, *frames);
+  // First what may be wrong with the config, which shows while it is expanded into the store.
+  Result<Campaign> campaign = create_campaign(folder, *prepared);
   if (!campaign) return report(campaign.error());
+  const Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
+  if (!setup) {
+    remove_campaign(folder);
+    return report(setup.error());
+  }
   const Result<CampaignLock> lock = CampaignLock::acquire(campaign->files.lock());
   if (!lock) return report(lock.error());
   std::vector<PendingFrame> pending;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -20,7 +21,38 @@ enum class Level { kCampaign, kScene, kFrame };
 struct VariableConfig {
   std::string name;
   Place place;
-  std::variant<NumberSource, NameSource> source;
+  std::variant<NumberSource, NameSource, VectorSource, ColorSource> source;
+};
+
+/// One axis of a sweep: points that are taken in turn, each of which sets one or more variables.
+struct SweepAxis {
+  std::string name;
+  Place place;
+  /// Every point sets the same variables, to numbers or to names.
+  std::vector<std::map<std::string, std::variant<double, std::string>>> points;
+};
+
+/// The Cartesian product of all points of all axes; each scene takes one, the last axis fastest.
+struct SweepConfig {
+  std::vector<SweepAxis> axes;
+  /// All else is drawn once for the whole product, so that its scenes differ in nothing else.
+  bool hold_draws = true;
+  Place place;
+
+  /// Number of combinations; 1 without axes.
+  std::int64_t size() const;
+};
+
+enum class ConstraintKind { kVisible, kInView, kPixels, kApart, kDistance };
+
+/// What must hold in a frame; else its frame-level draws are made again.
+struct ConstraintConfig {
+  std::string name;
+  Place place;
+  ConstraintKind kind = ConstraintKind::kVisible;
+  std::vector<std::string> objects;  ///< names of sections; empty: all objects
+  /// kVisible, kInView: a share; kPixels: pixels; kApart, kDistance: metres.
+  NumberSource at_least;
 };
 
 struct RenderConfig {
@@ -52,6 +84,30 @@ struct MaterialConfig {
   std::optional<NameSource> textures;  ///< name of a texture set
 };
 
+/// Copies in rows: along x first, then y, then z, centred on the position.
+struct GridConfig {
+  Place place;
+  std::array<NumberSource, 3> counts;
+  VectorSource spacing_m;
+};
+
+/// Draws from the library: with probability `realistic_share` one of the realistic materials
+/// (those with textures), else one of the parametric ones; within each kind, each as likely.
+struct MaterialShareConfig {
+  Place place;
+  NumberSource realistic_share;
+  std::optional<std::vector<std::string>> realistic;   ///< none: all of the library
+  std::optional<std::vector<std::string>> parametric;  ///< none: all of the library
+};
+using MaterialSource = std::variant<NameSource, MaterialShareConfig>;
+
+/// Kinds of rays that pass through an object as if it were not there.
+struct HiddenFrom {
+  bool camera = false, diffuse = false, glossy = false, transmission = false, shadow = false;
+
+  bool operator==(const HiddenFrom&) const = default;
+};
+
 /// Dropped at random places on the ground so that the copies' footprints keep apart.
 struct ScatterConfig {
   std::array<NumberSource, 2> x;  ///< least and most, metres
@@ -66,14 +122,18 @@ struct ObjectConfig {
   std::vector<VariableConfig> variables;  ///< drawn for each copy
   Level redraw = Level::kScene;
   NumberSource count;
-  NameSource asset;
+  std::optional<GridConfig> grid;      ///< says the count, instead of `count`
+  std::optional<NameSource> asset;     ///< none: a group, which only carries its `objects`
   std::optional<NameSource> category;  ///< none: the asset's own
-  NameSource material;
-  NumberSource scale;
+  MaterialSource material;
+  std::map<std::string, MaterialSource> slots;  ///< by material slot, instead of `material`
+  VectorSource scale;                           ///< along the object's own axes
   VectorSource rotation_deg;             ///< Euler angles, applied about x, then y, then z
-  VectorSource position;                 ///< metres, world; x right, y away, z up
+  VectorSource position;                 ///< metres, in the parent; x right, y away, z up
   std::optional<ScatterConfig> scatter;  ///< replaces x and y of the position
   bool rest_on_ground = false;           ///< the lowest vertex is lifted to z of the position
+  HiddenFrom hidden_from;
+  std::vector<ObjectConfig> objects;  ///< placed relative to each copy of this one
 };
 
 enum class LightType { kPoint, kSun, kSpot, kArea };
@@ -86,16 +146,20 @@ struct LightConfig {
   Level redraw = Level::kScene;
   NumberSource count;
   VectorSource position;
-  VectorSource target;  ///< what it shines at
+  VectorSource target;        ///< what it shines at
+  bool target_below = false;  ///< straight down instead
   ColorSource color;
-  NumberSource power;  ///< W of radiant flux; sun: W/m²
+  std::optional<GridConfig> grid;  ///< says the count, instead of `count`
+  /// One of the three is set: W of radiant flux (sun: W/m²), lumens, or (sun) lux.
+  std::optional<NumberSource> power, lumens, lux;
   NumberSource radius_m, angle_deg, blend, width_m, height_m;
 };
 
 struct GroundConfig {
   Level redraw = Level::kScene;
   NumberSource width_m, depth_m;
-  NameSource material;
+  NumberSource curvature_per_m;  ///< at the centre: z = curvature · (x² + y²) / 2
+  MaterialSource material;
   Place place;
 };
 
@@ -103,6 +167,9 @@ struct WorldConfig {
   Level redraw = Level::kScene;
   ColorSource color;
   NumberSource strength;
+  std::optional<NameSource> hdri;  ///< name of an environment map, multiplied by the colour
+  NumberSource rotation_deg;       ///< of the environment map, about z
+  Place place;
 };
 
 struct CameraConfig {
@@ -110,7 +177,10 @@ struct CameraConfig {
   Place place;
   std::vector<VariableConfig> variables;
   std::optional<NumberSource> fov_deg;   ///< horizontal
-  std::optional<NumberSource> focal_px;  ///< one of the two is set
+  std::optional<std::array<NumberSource, 2>> focal_px;   ///< fx, fy; or fov_deg is set
+  std::optional<std::array<NumberSource, 2>> center_px;  ///< cx, cy; none: the image's middle
+  /// Position and target are relative to the first copy of this object; none: to the world.
+  std::optional<std::string> parent;
   /// None: the mean of the centres of all objects' bounding boxes.
   std::optional<VectorSource> target;
   /// Either a position, or a distance and angles around the target.
@@ -118,6 +188,9 @@ struct CameraConfig {
   NumberSource distance_m, azimuth_deg, elevation_deg;
   NumberSource roll_deg;
   NumberSource clip_start_m, clip_end_m;
+  NumberSource f_stop;           ///< 0: a pinhole
+  NumberSource sensor_width_mm;  ///< with the focal length in pixels: the lens behind the f-stop
+  std::optional<NumberSource> focus_distance_m;  ///< none: the distance to the target
 };
 
 struct CampaignConfig {
@@ -137,6 +210,10 @@ struct CampaignConfig {
   std::optional<GroundConfig> ground;
   WorldConfig world;
   CameraConfig camera;
+  SweepConfig sweep;
+  std::vector<ConstraintConfig> constraints;
+  int max_attempts = 100;  ///< to meet all constraints in a frame
+  std::optional<std::filesystem::path> graphs;  ///< JSON lines of variables' values, one a frame
 
   std::int64_t frame_count() const { return scenes * frames_per_scene; }
 };

@@ -47,6 +47,8 @@ class ConfigNode {
 
   Place place() const;
   const std::string& path() const { return path_; }
+  /// The config's path as given, also for what comes from an override.
+  const std::string& file() const { return source_->file; }
 
   /// Says of every key that is not among `known` that it is unknown, with "did you mean".
   void refuse_unknown_keys(const std::vector<std::string>& known, Diagnostics& errors) const;

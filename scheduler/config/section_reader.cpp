@@ -29,6 +29,37 @@ NumberSource SectionReader::number(const std::string& key, double fallback) {
   return found ? read_number(*found, errors_) : number_constant(fallback);
 }
 
+std::optional<NumberSource> SectionReader::optional_number(const std::string& key) {
+  const auto found = find(key);
+  return found ? std::optional(read_number(*found, errors_)) : std::nullopt;
+}
+
+std::optional<GridConfig> SectionReader::grid() {
+  const auto node = find("grid");
+  if (!node) return std::nullopt;
+  GridConfig grid;
+  grid.place = node->place();
+  SectionReader section(*node, errors_);
+  const auto counts = section.require("counts");
+  const std::vector<ConfigNode> items = counts ? counts->items() : std::vector<ConfigNode>();
+  if (counts && (items.empty() || items.size() > 3)) {
+    errors_.add(counts->place(), "expected [along x, along y, along z], found " +
+                                     counts->description());
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    grid.counts[i] = i < items.size() ? read_number(items[i], errors_) : number_constant(1.0);
+  }
+  grid.spacing_m = section.vector("spacing_m", {1, 1, 1});
+  section.refuse_other_keys();
+  return grid;
+}
+
+MaterialSource SectionReader::material(const std::string& key) {
+  const auto found = find(key);
+  if (found) return read_material_source(*found, errors_);
+  return NameSource{node_.place(), {{"default", number_constant(1.0)}}};
+}
+
 VectorSource SectionReader::vector(const std::string& key, const std::array<double, 3>& fallback) {
   if (const auto found = find(key)) return read_vector(*found, errors_);
   VectorSource source;
@@ -125,6 +156,18 @@ bool is_identifier(const std::string& name) {
   return true;
 }
 
+MaterialSource read_material_source(const ConfigNode& node, Diagnostics& errors) {
+  if (!node.find("realistic_share")) return read_name(node, errors);
+  MaterialShareConfig share;
+  share.place = node.place();
+  SectionReader section(node, errors);
+  share.realistic_share = section.number("realistic_share", 0.0);
+  if (section.find("realistic")) share.realistic = section.texts("realistic");
+  if (section.find("parametric")) share.parametric = section.texts("parametric");
+  section.refuse_other_keys();
+  return share;
+}
+
 std::vector<VariableConfig> read_variables(const ConfigNode& node, Diagnostics& errors) {
   std::vector<VariableConfig> variables;
   if (!node.is_map() && !node.is_null()) {
@@ -139,6 +182,10 @@ std::vector<VariableConfig> read_variables(const ConfigNode& node, Diagnostics& 
     VariableConfig variable{name, value.place(), NumberSource{}};
     if (is_name_choice(value)) {
       variable.source = read_name(value, errors);
+    } else if (value.is_list()) {
+      variable.source = read_vector(value, errors);
+    } else if (is_color_mapping(value)) {
+      variable.source = read_color(value, errors);
     } else {
       variable.source = read_number(value, errors);
     }

@@ -21,6 +21,7 @@ class SectionReader {
   std::optional<ConfigNode> require(const std::string& key);
 
   NumberSource number(const std::string& key, double fallback);
+  std::optional<NumberSource> optional_number(const std::string& key);
   VectorSource vector(const std::string& key, const std::array<double, 3>& fallback);
   ColorSource color(const std::string& key, const std::array<double, 3>& fallback);
   std::string text(const std::string& key, const std::string& fallback);
@@ -30,6 +31,10 @@ class SectionReader {
   /// A number above zero that cannot vary.
   double positive(const std::string& key, double fallback);
   Level redraw(Level fallback);
+  /// The key `grid`.
+  std::optional<GridConfig> grid();
+  /// A name, or a share of the library; absent: the material "default".
+  MaterialSource material(const std::string& key);
   std::vector<VariableConfig> variables(const std::string& key);
   std::vector<std::string> texts(const std::string& key);
 
@@ -47,5 +52,28 @@ class SectionReader {
 /// it.
 std::vector<VariableConfig> read_variables(const ConfigNode& node, Diagnostics& errors);
 bool is_identifier(const std::string& name);
+
+MaterialSource read_material_source(const ConfigNode& node, Diagnostics& errors);
+
+/// The mapping below a key, whose keys are identifiers of the user's choice, in the file's order.
+template <class T>
+std::vector<T> read_named(SectionReader& section, const char* key,
+                          T (*read)(const std::string&, const ConfigNode&, Diagnostics&)) {
+  std::vector<T> list;
+  const auto node = section.find(key);
+  if (!node) return list;
+  if (!node->is_map() && !node->is_null()) {
+    section.errors().add(node->place(),
+                         "expected a mapping of names, found " + node->description());
+  }
+  for (const auto& [name, body] : node->entries()) {
+    if (!is_identifier(name)) {
+      section.errors().add(body.place(),
+                           "a name must be letters, digits and '_', and not start with a digit");
+    }
+    list.push_back(read(name, body, section.errors()));
+  }
+  return list;
+}
 
 }  // namespace seedframe

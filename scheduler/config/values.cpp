@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "base/nearest_name.h"
+#include "config/csv_column.h"
 
 namespace seedframe {
 namespace {
@@ -22,12 +23,13 @@ const std::vector<DistributionSyntax>& distributions() {
       {"truncated_normal", DistributionKind::kTruncatedNormal, {"mean", "std", "min", "max"}},
       {"log_uniform", DistributionKind::kLogUniform, {"min", "max"}},
       {"integer", DistributionKind::kInteger, {"min", "max"}},
+      {"poisson", DistributionKind::kPoisson, {"mean"}},
   };
   return list;
 }
 
 std::vector<std::string> distribution_names() {
-  std::vector<std::string> names = {"constant", "choice"};
+  std::vector<std::string> names = {"constant", "choice", "mixture", "empirical", "sobol"};
   for (const DistributionSyntax& syntax : distributions()) names.emplace_back(syntax.name);
   return names;
 }
@@ -63,6 +65,7 @@ std::string join(const std::vector<std::string>& names) {
 std::vector<NumberSource> read_parameters(const ConfigNode& node, const DistributionSyntax& syntax,
                                           Diagnostics& errors) {
   std::vector<NumberSource> parameters;
+  if (node.is_scalar() && syntax.parameters.size() == 1) return {read_number(node, errors)};
   if (node.is_list() && node.items().size() == syntax.parameters.size()) {
     for (const ConfigNode& item : node.items()) parameters.push_back(read_number(item, errors));
     return parameters;
@@ -128,6 +131,64 @@ NumberSource read_number_choice(const ConfigNode& node, Diagnostics& errors) {
   return {node.place(), distribution};
 }
 
+/// The nodes of [a, b] or {first: a, second: b}; an error and nothing for anything else.
+std::optional<std::array<ConfigNode, 2>> read_pair(const ConfigNode& node, const char* what,
+                                                   const std::array<std::string, 2>& keys,
+                                                   Diagnostics& errors) {
+  const std::vector<ConfigNode> items = node.items();
+  if (items.size() == 2) return std::array<ConfigNode, 2>{items[0], items[1]};
+  if (node.is_map()) node.refuse_unknown_keys({keys[0], keys[1]}, errors);
+  const auto first = node.find(keys[0]);
+  const auto second = node.find(keys[1]);
+  if (first && second) return std::array<ConfigNode, 2>{*first, *second};
+  errors.add(node.place(), fmt::format("{} wants [{}, {}], found {}", what, keys[0], keys[1],
+                                       node.description()));
+  return std::nullopt;
+}
+
+NumberSource read_empirical(const ConfigNode& node, Diagnostics& errors) {
+  auto distribution = std::make_shared<Distribution>();
+  distribution->kind = DistributionKind::kEmpirical;
+  const auto parts = read_pair(node, "empirical", {"file", "column"}, errors);
+  if (!parts) return {node.place(), 0.0};
+  for (const ConfigNode& part : *parts) {
+    if (part.is_scalar() && !part.text().empty()) continue;
+    errors.add(part.place(), "expected a text, found " + part.description());
+    return {node.place(), 0.0};
+  }
+  const std::filesystem::path folder = std::filesystem::path(node.file()).parent_path();
+  auto samples = read_csv_column(folder / (*parts)[0].text(), (*parts)[1].text());
+  if (!samples) {
+    errors.add((*parts)[0].place(), samples.error().message);
+    return {node.place(), 0.0};
+  }
+  distribution->samples = std::make_shared<const std::vector<double>>(std::move(*samples));
+  return {node.place(), distribution};
+}
+
+NumberSource read_sobol(const ConfigNode& node, Diagnostics& errors) {
+  const auto parts = read_pair(node, "sobol", {"dimension", "of"}, errors);
+  if (!parts) return {node.place(), 0.0};
+  constexpr long long kDimensions = 1000;
+  const long long dimension = read_integer((*parts)[0], 0, kDimensions - 1, errors);
+  const NumberSource of = read_number((*parts)[1], errors);
+  const auto* inner = std::get_if<std::shared_ptr<const Distribution>>(&of.value);
+  if (inner == nullptr || (*inner)->sobol_dimension) {
+    errors.add((*parts)[1].place(), "sobol wants a distribution, such as {uniform: [0, 1]}");
+    return {node.place(), 0.0};
+  }
+  auto distribution = std::make_shared<Distribution>(**inner);
+  distribution->sobol_dimension = static_cast<int>(dimension);
+  return {node.place(), distribution};
+}
+
+NumberSource read_mixture(const ConfigNode& node, Diagnostics& errors) {
+  if (node.is_list()) return read_number_choice(node, errors);
+  errors.add(node.place(), "mixture wants a list of distributions or of {value: …, weight: …}, found " +
+                               node.description());
+  return {node.place(), 0.0};
+}
+
 NumberSource read_distribution(const ConfigNode& node, Diagnostics& errors) {
   const auto entries = node.entries();
   if (entries.size() != 1) {
@@ -140,6 +201,9 @@ NumberSource read_distribution(const ConfigNode& node, Diagnostics& errors) {
   const auto& [name, body] = entries.front();
   if (name == "constant") return read_number(body, errors);
   if (name == "choice") return read_number_choice(body, errors);
+  if (name == "mixture") return read_mixture(body, errors);
+  if (name == "empirical") return read_empirical(body, errors);
+  if (name == "sobol") return read_sobol(body, errors);
   for (const DistributionSyntax& syntax : distributions()) {
     if (name != syntax.name) continue;
     auto distribution = std::make_shared<Distribution>();
@@ -176,12 +240,30 @@ NumberSource read_number(const ConfigNode& node, Diagnostics& errors) {
   return {node.place(), Formula{node.text()}};
 }
 
+namespace {
+
+/// Of a text that stands for a vector; a plain number does not.
+NumberSource read_vector_formula(const ConfigNode& node, Diagnostics& errors) {
+  NumberSource source = read_number(node, errors);
+  if (!std::holds_alternative<Formula>(source.value)) {
+    errors.add(node.place(), "expected a vector, found " + node.description());
+    source.value = Formula{"[0, 0, 0]"};
+  }
+  return source;
+}
+
+}  // namespace
+
 VectorSource read_vector(const ConfigNode& node, Diagnostics& errors) {
   VectorSource vector;
+  if (node.is_scalar() && !node.text().empty()) {
+    vector.formula = read_vector_formula(node, errors);
+    return vector;
+  }
   const auto items = node.items();
   if (items.size() != 3) {
-    errors.add(node.place(),
-               "expected a list of three numbers [x, y, z], found " + node.description());
+    errors.add(node.place(), "expected a list of three numbers [x, y, z] or a formula, found " +
+                                 node.description());
     return vector;
   }
   for (std::size_t i = 0; i < 3; ++i) vector.components[i] = read_number(items[i], errors);
@@ -208,9 +290,14 @@ ColorSource read_color(const ConfigNode& node, Diagnostics& errors) {
       return color;
     }
   }
+  if (node.is_scalar() && !node.text().empty()) {
+    color.model = ColorModel::kFormula;
+    color.components[0] = read_vector_formula(node, errors);
+    return color;
+  }
   if (node.items().size() != 3) {
     errors.add(node.place(),
-               "expected a colour: [r, g, b], {hsv: [h, s, v]} or {kelvin: t}, found " +
+               "expected a colour: [r, g, b], {hsv: [h, s, v]}, {kelvin: t} or a formula, found " +
                    node.description());
     return color;
   }
@@ -277,6 +364,10 @@ bool read_flag(const ConfigNode& node, Diagnostics& errors) {
     errors.add(node.place(), "expected true or false, found " + node.description());
   }
   return false;
+}
+
+bool is_color_mapping(const ConfigNode& node) {
+  return node.find("hsv") || node.find("rgb") || node.find("kelvin");
 }
 
 bool is_name_choice(const ConfigNode& node) {

@@ -15,7 +15,7 @@ namespace seedframe {
 
 struct Distribution;
 
-/// A text such as "0.5 * spread + 0.1" (muParser's syntax).
+/// A text such as "0.5 * spread + 10cm"; scene/formula.h knows its syntax.
 struct Formula {
   std::string text;
 };
@@ -31,23 +31,32 @@ enum class DistributionKind {
   kTruncatedNormal,  ///< mean, std, min, max
   kLogUniform,       ///< [min, max), both positive
   kInteger,          ///< min to max, both included
-  kChoice,           ///< one of the values, by weight
+  kPoisson,          ///< mean
+  kChoice,           ///< one of the values, by weight; a mixture when they are distributions
+  kEmpirical,        ///< one of the samples, each as likely
 };
 
 struct Distribution {
   DistributionKind kind = DistributionKind::kUniform;
   std::vector<NumberSource> parameters;  ///< in the order above; for kChoice the values
   std::vector<NumberSource> weights;     ///< kChoice only, as many as parameters
+  /// kEmpirical only: a column of a CSV file, sorted.
+  std::shared_ptr<const std::vector<double>> samples;
+  /// The dimension of the scrambled Sobol' sequence that is its source, instead of a random stream.
+  std::optional<int> sobol_dimension;
 };
 
+/// Three numbers, or one formula whose value is a vector.
 struct VectorSource {
   std::array<NumberSource, 3> components;
+  std::optional<NumberSource> formula;
 };
 
-enum class ColorModel { kRgb, kHsv, kKelvin };
+enum class ColorModel { kRgb, kHsv, kKelvin, kFormula };
 
 /// kRgb: linear Rec.709; kHsv: hue in degrees, saturation and value 0 to 1, of sRGB; kKelvin: the
-/// colour temperature of a black body in the first component.
+/// colour temperature of a black body in the first component; kFormula: in the first component a
+/// formula whose value is a vector, as kRgb.
 struct ColorSource {
   ColorModel model = ColorModel::kRgb;
   std::array<NumberSource, 3> components;
@@ -75,6 +84,9 @@ double read_constant(const ConfigNode& node, Diagnostics& errors);
 long long read_integer(const ConfigNode& node, long long least, long long most,
                        Diagnostics& errors);
 bool read_flag(const ConfigNode& node, Diagnostics& errors);
+
+/// True for {hsv: …}, {rgb: …} and {kelvin: …}.
+bool is_color_mapping(const ConfigNode& node);
 
 /// True for {choice: …} whose options are texts that are not numbers, and for a plain text in
 /// quotes with ${…}: a variable of names rather than of numbers.

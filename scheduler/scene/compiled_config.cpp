@@ -15,7 +15,7 @@ class SectionCompiler {
     return NumberDraw::compile(source, scope_, name(key), level_, errors_);
   }
   VectorDraw vector(const VectorSource& source, const char* key) const {
-    return VectorDraw::compile(source.components, scope_, name(key), level_, errors_);
+    return VectorDraw::compile(source, scope_, name(key), level_, errors_);
   }
   ColorDraw color(const ColorSource& source, const char* key) const {
     return ColorDraw::compile(source, scope_, name(key), level_, errors_);
@@ -25,7 +25,7 @@ class SectionCompiler {
   }
 
   CompiledMaterial material(const MaterialConfig& config, const MaterialLibrary& library) const {
-    const SectionCompiler inner(scope_, name("material.") + config.name, level_, errors_);
+    const SectionCompiler inner(scope_, section_ + "." + config.name, level_, errors_);
     CompiledMaterial material;
     material.place = config.place;
     material.base_color = inner.color(config.base_color, "base_color");
@@ -43,28 +43,49 @@ class SectionCompiler {
     return material;
   }
 
-  /// Only the materials that the name can become, for each is compiled anew.
-  CompiledMaterials materials(const NameSource& source, const MaterialLibrary& library) const {
-    CompiledMaterials result{text(source, "material"), {}};
-    const auto possible = result.name.possible_values();
-    if (possible) {
-      refuse_unknown(result.name, library.material_names(), "material");
-      for (const std::string& wanted : *possible) {
-        const auto found = library.materials().find(wanted);
-        if (found != library.materials().end()) {
-          result.by_name.emplace(wanted, material(found->second, library));
-        }
-      }
+  /// Only the materials that the source can become, for each is compiled anew.
+  CompiledMaterials materials(const MaterialSource& source, const MaterialLibrary& library,
+                              const std::string& key) const {
+    CompiledMaterials result;
+    result.key = section_ + "." + key;
+    std::vector<std::string> wanted;
+    if (const auto* share = std::get_if<MaterialShareConfig>(&source)) {
+      result.place = share->place;
+      CompiledShare compiled = compile_share(*share, library, result.key);
+      wanted = compiled.realistic;
+      wanted.insert(wanted.end(), compiled.parametric.begin(), compiled.parametric.end());
+      result.choice = std::move(compiled);
     } else {
-      for (const auto& [known, config] : library.materials()) {
-        result.by_name.emplace(known, material(config, library));
+      const NameDraw draw = NameDraw::compile(std::get<NameSource>(source), scope_, result.key,
+                                              level_, errors_);
+      result.place = draw.place();
+      const auto possible = draw.possible_values();
+      wanted = possible.value_or(library.material_names());
+      if (possible) refuse_unknown(draw, library.material_names(), "material");
+      result.choice = draw;
+    }
+    const SectionCompiler inner(scope_, result.key, level_, errors_);
+    for (const std::string& name : wanted) {
+      const auto found = library.materials().find(name);
+      if (found != library.materials().end() && !result.by_name.contains(name)) {
+        result.by_name.emplace(name, inner.material(found->second, library));
       }
     }
     return result;
   }
 
- private:
-  std::string name(const char* key) const { return section_ + "." + key; }
+  std::optional<CompiledGrid> grid(const std::optional<GridConfig>& config) const {
+    if (!config) return std::nullopt;
+    return CompiledGrid{config->place,
+                        {number(config->counts[0], "grid.counts[0]"),
+                         number(config->counts[1], "grid.counts[1]"),
+                         number(config->counts[2], "grid.counts[2]")},
+                        vector(config->spacing_m, "grid.spacing_m")};
+  }
+  std::optional<NumberDraw> number(const std::optional<NumberSource>& source,
+                                   const char* key) const {
+    return source ? std::optional(number(*source, key)) : std::nullopt;
+  }
 
   void refuse_unknown(const NameDraw& draw, const std::vector<std::string>& known,
                       const char* kind) const {
@@ -76,6 +97,34 @@ class SectionCompiler {
                     fmt::format("there is no {} '{}'{}", kind, value, did_you_mean(value, known)));
       }
     }
+  }
+
+ private:
+  std::string name(const char* key) const { return section_ + "." + key; }
+
+  CompiledShare compile_share(const MaterialShareConfig& config, const MaterialLibrary& library,
+                              const std::string& key) const {
+    CompiledShare share{NumberDraw::compile(config.realistic_share, scope_,
+                                            key + ".realistic_share", level_, errors_),
+                        PhiloxStream(scope_.seed, key),
+                        level_,
+                        {},
+                        {}};
+    for (const auto& [name, material] : library.materials()) {
+      if (name == "default") continue;
+      (material.textures ? share.realistic : share.parametric).push_back(name);
+    }
+    if (config.realistic) share.realistic = *config.realistic;
+    if (config.parametric) share.parametric = *config.parametric;
+    for (const std::vector<std::string>* names : {&share.realistic, &share.parametric}) {
+      for (const std::string& name : *names) {
+        if (library.materials().contains(name)) continue;
+        errors_.add(config.place,
+                    fmt::format("there is no material '{}'{}", name,
+                                did_you_mean(name, library.material_names())));
+      }
+    }
+    return share;
   }
 
   const CompileScope& scope_;
@@ -94,12 +143,16 @@ class Compiler {
 
   void run() {
     const auto block = [&](const auto& variables, const char* prefix, Level level) {
-      return VariableBlock::compile(variables, prefix, level, compiled_.values, scope_, errors_);
+      VariableBlock compiled =
+          VariableBlock::compile(variables, prefix, level, compiled_.values, scope_, errors_);
+      compiled.add_to(compiled_.graph_variables);
+      return compiled;
     };
     BuiltInValues& built_in = compiled_.built_in;
     compiled_.campaign_variables =
         block(config_.campaign_variables, "variables.campaign.", Level::kCampaign);
     built_in.scene_index = add_built_in("scene_index");
+    compile_sweep();
     compiled_.scene_variables = block(config_.scene_variables, "variables.scene.", Level::kScene);
     built_in.frame_index = add_built_in("frame_index");
     compiled_.frame_variables = block(config_.frame_variables, "variables.frame.", Level::kFrame);
@@ -108,30 +161,65 @@ class Compiler {
     count_scope_ = scope_;
     built_in.copy_index = add_built_in("copy_index");
     built_in.copies = add_built_in("copies");
-    for (const ObjectConfig& object : config_.objects) compile_object(object);
+    for (const ObjectConfig& object : config_.objects) {
+      compiled_.objects.push_back(compile_object(object, "objects.", count_scope_, scope_));
+    }
+    compiled_.sections = sections_.size();
     for (const LightConfig& light : config_.lights) compile_light(light);
+    for (const ConstraintConfig& constraint : config_.constraints) compile_constraint(constraint);
   }
 
  private:
   double* add_built_in(const char* name) {
-    double* value = compiled_.values.number();
-    if (scope_.numbers.contains(name) || scope_.names.contains(name)) {
+    double* value = compiled_.values.numbers();
+    if (scope_.symbols.contains(name)) {
       errors_.add(Place{}, fmt::format("the variable '{}' has the name of a built-in one", name));
     }
-    scope_.numbers[name] = value;
+    scope_.symbols[name] = number_symbol(value);
     return value;
+  }
+
+  void compile_sweep() {
+    for (std::size_t axis = 0; axis < config_.sweep.axes.size(); ++axis) {
+      const SweepAxis& config = config_.sweep.axes[axis];
+      if (config.points.empty()) continue;
+      for (const auto& [name, value] : config.points.front()) {
+        CompiledSweep::Variable variable;
+        variable.name = name;
+        variable.axis = axis;
+        if (scope_.symbols.contains(name)) {
+          errors_.add(config.place, "the name '" + name + "' is taken by another variable");
+        }
+        if (std::holds_alternative<double>(value)) {
+          variable.number = compiled_.values.numbers();
+          scope_.symbols[name] = number_symbol(variable.number);
+        } else {
+          variable.text = compiled_.values.name();
+          scope_.symbols[name] = {{ValueType::kText, {}}, nullptr, variable.text};
+        }
+        compiled_.sweep.variables.push_back(variable);
+      }
+    }
   }
 
   void compile_world_and_ground() {
     const SectionCompiler world(scope_, "world", config_.world.redraw, errors_);
-    compiled_.world_color = world.color(config_.world.color, "color");
-    compiled_.world_strength = world.number(config_.world.strength, "strength");
+    compiled_.world.place = config_.world.place;
+    compiled_.world.color = world.color(config_.world.color, "color");
+    compiled_.world.strength = world.number(config_.world.strength, "strength");
+    compiled_.world.rotation_deg = world.number(config_.world.rotation_deg, "rotation_deg");
+    if (config_.world.hdri) {
+      compiled_.world.hdri = world.text(*config_.world.hdri, "hdri");
+      world.refuse_unknown(*compiled_.world.hdri, materials_.hdri_names(), "environment map");
+    }
     if (!config_.ground) return;
     const SectionCompiler section(scope_, "ground", config_.ground->redraw, errors_);
-    compiled_.ground = CompiledGround{section.number(config_.ground->width_m, "width_m"),
-                                      section.number(config_.ground->depth_m, "depth_m"),
-                                      section.materials(config_.ground->material, materials_),
-                                      config_.ground->place};
+    compiled_.ground =
+        CompiledGround{section.number(config_.ground->width_m, "width_m"),
+                       section.number(config_.ground->depth_m, "depth_m"),
+                       section.number(config_.ground->curvature_per_m, "curvature_per_m"),
+                       section.materials(config_.ground->material, materials_, "material"),
+                       config_.ground->place};
   }
 
   void compile_camera() {
@@ -141,9 +229,15 @@ class Compiler {
     camera.place = config.place;
     camera.variables = VariableBlock::compile(config.variables, "camera.variables.", config.redraw,
                                               compiled_.values, scope, errors_);
+    camera.variables.add_to(compiled_.graph_variables);
     const SectionCompiler section(scope, "camera", config.redraw, errors_);
-    if (config.fov_deg) camera.fov_deg = section.number(*config.fov_deg, "fov_deg");
-    if (config.focal_px) camera.focal_px = section.number(*config.focal_px, "focal_px");
+    const auto pair = [&](const std::array<NumberSource, 2>& sources, const std::string& key) {
+      return std::array<NumberDraw, 2>{section.number(sources[0], (key + "[0]").c_str()),
+                                       section.number(sources[1], (key + "[1]").c_str())};
+    };
+    camera.fov_deg = section.number(config.fov_deg, "fov_deg");
+    if (config.focal_px) camera.focal_px = pair(*config.focal_px, "focal_px");
+    if (config.center_px) camera.center_px = pair(*config.center_px, "center_px");
     if (config.target) camera.target = section.vector(*config.target, "target");
     if (config.position) camera.position = section.vector(*config.position, "position");
     camera.distance_m = section.number(config.distance_m, "distance_m");
@@ -152,28 +246,55 @@ class Compiler {
     camera.roll_deg = section.number(config.roll_deg, "roll_deg");
     camera.clip_start_m = section.number(config.clip_start_m, "clip_start_m");
     camera.clip_end_m = section.number(config.clip_end_m, "clip_end_m");
+    camera.f_stop = section.number(config.f_stop, "f_stop");
+    camera.sensor_width_mm = section.number(config.sensor_width_mm, "sensor_width_mm");
+    camera.focus_distance_m = section.number(config.focus_distance_m, "focus_distance_m");
+    camera.parent = config.parent;
+    if (!config.parent) return;
+    std::vector<std::string> names;
+    for (const ObjectConfig& object : config_.objects) names.push_back(object.name);
+    if (std::find(names.begin(), names.end(), *config.parent) == names.end()) {
+      errors_.add(config.place, "there is no object '" + *config.parent + "' to be the camera's "
+                                    "parent" + did_you_mean(*config.parent, names));
+    }
   }
 
-  void compile_object(const ObjectConfig& config) {
-    CompileScope scope = scope_;
-    const std::string section_name = "objects." + config.name;
+  /// `outer` is what a count may refer to, `inner` what everything else may.
+  CompiledObject compile_object(const ObjectConfig& config, const std::string& prefix,
+                                const CompileScope& outer, const CompileScope& inner) {
+    CompileScope scope = inner;
+    scope.copies = true;
+    const std::string section_name = prefix + config.name;
+    const SectionCompiler count_section(outer, section_name, config.redraw, errors_);
     CompiledObject object;
     object.name = config.name;
+    object.section = sections_.size();
+    sections_.push_back(config.name);
     object.place = config.place;
-    object.count = SectionCompiler(count_scope_, section_name, config.redraw, errors_)
-                       .number(config.count, "count");
+    object.count = count_section.number(config.count, "count");
+    object.grid = count_section.grid(config.grid);
     object.variables = VariableBlock::compile(config.variables, section_name + ".variables.",
                                               config.redraw, compiled_.values, scope, errors_);
+    object.variables.add_to(compiled_.graph_variables);
     const SectionCompiler section(scope, section_name, config.redraw, errors_);
-    object.asset = section.text(config.asset, "asset");
+    if (config.asset) object.asset = section.text(*config.asset, "asset");
     if (config.category) object.category = section.text(*config.category, "category");
-    object.materials = section.materials(config.material, materials_);
-    object.scale = section.number(config.scale, "scale");
+    if (config.asset) {
+      object.materials = section.materials(config.material, materials_, "material");
+      for (const auto& [slot, source] : config.slots) {
+        object.slots.emplace(slot, section.materials(source, materials_, "slots." + slot));
+      }
+    }
+    object.scale = section.vector(config.scale, "scale");
     object.rotation_deg = section.vector(config.rotation_deg, "rotation_deg");
     object.position = section.vector(config.position, "position");
     if (config.scatter) object.scatter = compile_scatter(*config.scatter, section);
     object.rest_on_ground = config.rest_on_ground;
-    compiled_.objects.push_back(std::move(object));
+    object.hidden_from = config.hidden_from;
+    for (const ObjectConfig& child : config.objects) {
+      object.objects.push_back(compile_object(child, section_name + ".objects.", scope, scope));
+    }
+    return object;
   }
 
   static CompiledScatter compile_scatter(const ScatterConfig& config,
@@ -192,20 +313,26 @@ class Compiler {
 
   void compile_light(const LightConfig& config) {
     CompileScope scope = scope_;
+    scope.copies = true;
     const std::string section_name = "lights." + config.name;
+    const SectionCompiler count_section(count_scope_, section_name, config.redraw, errors_);
     CompiledLight light;
     light.name = config.name;
     light.place = config.place;
     light.type = config.type;
-    light.count = SectionCompiler(count_scope_, section_name, config.redraw, errors_)
-                      .number(config.count, "count");
+    light.count = count_section.number(config.count, "count");
+    light.grid = count_section.grid(config.grid);
     light.variables = VariableBlock::compile(config.variables, section_name + ".variables.",
                                              config.redraw, compiled_.values, scope, errors_);
+    light.variables.add_to(compiled_.graph_variables);
     const SectionCompiler section(scope, section_name, config.redraw, errors_);
     light.position = section.vector(config.position, "position");
     light.target = section.vector(config.target, "target");
+    light.target_below = config.target_below;
     light.color = section.color(config.color, "color");
     light.power = section.number(config.power, "power");
+    light.lumens = section.number(config.lumens, "lumens");
+    light.lux = section.number(config.lux, "lux");
     light.radius_m = section.number(config.radius_m, "radius_m");
     light.angle_deg = section.number(config.angle_deg, "angle_deg");
     light.blend = section.number(config.blend, "blend");
@@ -214,12 +341,32 @@ class Compiler {
     compiled_.lights.push_back(std::move(light));
   }
 
+  void compile_constraint(const ConstraintConfig& config) {
+    CompiledConstraint constraint;
+    constraint.name = config.name;
+    constraint.place = config.place;
+    constraint.kind = config.kind;
+    for (std::size_t i = 0; i < sections_.size(); ++i) {
+      const auto& wanted = config.objects;
+      if (std::find(wanted.begin(), wanted.end(), sections_[i]) != wanted.end()) {
+        constraint.sections.push_back(i);
+      }
+    }
+    const bool metres =
+        config.kind == ConstraintKind::kApart || config.kind == ConstraintKind::kDistance;
+    const SectionCompiler section(count_scope_, "constraints." + config.name, Level::kFrame,
+                                  errors_);
+    constraint.at_least = section.number(config.at_least, metres ? "at_least_m" : "at_least");
+    compiled_.constraints.push_back(std::move(constraint));
+  }
+
   const CampaignConfig& config_;
   const MaterialLibrary& materials_;
   CompiledConfig& compiled_;
   Diagnostics& errors_;
   CompileScope scope_;
-  CompileScope count_scope_;  ///< how many copies there are cannot depend on the copy
+  std::vector<std::string> sections_;  ///< names of all objects
+  CompileScope count_scope_;           ///< how many copies there are cannot depend on the copy
 };
 
 }  // namespace

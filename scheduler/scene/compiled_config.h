@@ -20,10 +20,26 @@ struct CompiledMaterial {
   std::optional<NameDraw> textures;
 };
 
-/// The materials that one object (or the ground) may get, with draws of its own.
+/// With probability `realistic_share` one of the realistic materials, else of the parametric.
+struct CompiledShare {
+  NumberDraw realistic_share;
+  PhiloxStream stream;
+  Level level = Level::kScene;
+  std::vector<std::string> realistic, parametric;
+};
+
+/// The materials that one object (or slot, or the ground) may get, with draws of its own.
 struct CompiledMaterials {
-  NameDraw name;
+  std::string key;  ///< of the draw
+  Place place;
+  std::variant<NameDraw, CompiledShare> choice;
   std::map<std::string, CompiledMaterial> by_name;
+};
+
+struct CompiledGrid {
+  Place place;
+  std::array<NumberDraw, 3> counts;
+  VectorDraw spacing_m;
 };
 
 struct CompiledScatter {
@@ -35,16 +51,20 @@ struct CompiledScatter {
 
 struct CompiledObject {
   std::string name;
+  std::size_t section = 0;  ///< numbers all objects, nested ones too
   Place place;
   VariableBlock variables;
   NumberDraw count;
-  NameDraw asset;
+  std::optional<CompiledGrid> grid;
+  std::optional<NameDraw> asset;
   std::optional<NameDraw> category;
   CompiledMaterials materials;
-  NumberDraw scale;
-  VectorDraw rotation_deg, position;
+  std::map<std::string, CompiledMaterials> slots;
+  VectorDraw scale, rotation_deg, position;
   std::optional<CompiledScatter> scatter;
   bool rest_on_ground = false;
+  HiddenFrom hidden_from;
+  std::vector<CompiledObject> objects;
 };
 
 struct CompiledLight {
@@ -53,13 +73,23 @@ struct CompiledLight {
   LightType type = LightType::kPoint;
   VariableBlock variables;
   NumberDraw count;
+  std::optional<CompiledGrid> grid;
   VectorDraw position, target;
+  bool target_below = false;
   ColorDraw color;
-  NumberDraw power, radius_m, angle_deg, blend, width_m, height_m;
+  std::optional<NumberDraw> power, lumens, lux;
+  NumberDraw radius_m, angle_deg, blend, width_m, height_m;
+};
+
+struct CompiledWorld {
+  Place place;
+  ColorDraw color;
+  NumberDraw strength, rotation_deg;
+  std::optional<NameDraw> hdri;
 };
 
 struct CompiledGround {
-  NumberDraw width_m, depth_m;
+  NumberDraw width_m, depth_m, curvature_per_m;
   CompiledMaterials materials;
   Place place;
 };
@@ -67,9 +97,32 @@ struct CompiledGround {
 struct CompiledCamera {
   Place place;
   VariableBlock variables;
-  std::optional<NumberDraw> fov_deg, focal_px;
+  std::optional<NumberDraw> fov_deg;
+  std::optional<std::array<NumberDraw, 2>> focal_px, center_px;
+  std::optional<std::string> parent;
   std::optional<VectorDraw> target, position;
   NumberDraw distance_m, azimuth_deg, elevation_deg, roll_deg, clip_start_m, clip_end_m;
+  NumberDraw f_stop, sensor_width_mm;
+  std::optional<NumberDraw> focus_distance_m;
+};
+
+struct CompiledConstraint {
+  std::string name;
+  Place place;
+  ConstraintKind kind = ConstraintKind::kVisible;
+  std::vector<std::size_t> sections;  ///< sorted; empty: all objects
+  NumberDraw at_least;
+};
+
+/// The variables that one scene's combination of a sweep sets.
+struct CompiledSweep {
+  struct Variable {
+    std::string name;
+    std::size_t axis = 0;
+    double* number = nullptr;
+    std::string* text = nullptr;
+  };
+  std::vector<Variable> variables;
 };
 
 /// Values that every formula may use.
@@ -87,9 +140,12 @@ struct CompiledConfig {
   std::vector<CompiledObject> objects;
   std::vector<CompiledLight> lights;
   std::optional<CompiledGround> ground;
-  ColorDraw world_color;
-  NumberDraw world_strength;
+  CompiledWorld world;
   CompiledCamera camera;
+  CompiledSweep sweep;
+  std::vector<CompiledConstraint> constraints;
+  std::size_t sections = 0;  ///< number of objects, nested ones too
+  GraphVariables graph_variables;
 };
 
 /// Fills `compiled` in place; mistakes go to `errors`.

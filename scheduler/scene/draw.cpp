@@ -10,9 +10,9 @@
 namespace seedframe {
 namespace {
 
-std::string record_name(const std::string& name, const EvaluationContext& context) {
-  return context.copy == kNoIndex ? name : fmt::format("{}/{}", name, context.copy);
-}
+// Scattered copies try up to this many places within one attempt to meet the constraints.
+constexpr std::uint32_t kPlacementStride = 4096;
+constexpr double kLargestPoissonMean = 10000.0;
 
 std::vector<NumberDraw> compile_all(const std::vector<NumberSource>& sources,
                                     const CompileScope& scope, const std::string& name, Level level,
@@ -20,20 +20,13 @@ std::vector<NumberDraw> compile_all(const std::vector<NumberSource>& sources,
   std::vector<NumberDraw> draws;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     draws.push_back(
-        NumberDraw::compile(sources[i], scope, fmt::format("{}.{}", name, i), level, errors));
+        NumberDraw::compile_any(sources[i], scope, fmt::format("{}.{}", name, i), level, errors));
   }
   return draws;
 }
 
-std::vector<double> evaluate_all(const std::vector<NumberDraw>& draws, EvaluationContext& context) {
-  std::vector<double> values;
-  values.reserve(draws.size());
-  for (const NumberDraw& draw : draws) values.push_back(draw.evaluate(context));
-  return values;
-}
-
 /// What is wrong with a distribution's parameters, or empty.
-std::string parameter_fault(DistributionKind kind, const std::vector<double>& p) {
+std::string parameter_fault(DistributionKind kind, const std::array<double, 4>& p) {
   switch (kind) {
     case DistributionKind::kUniform:
       if (p[0] > p[1]) return fmt::format("uniform wants min <= max, found [{}, {}]", p[0], p[1]);
@@ -57,7 +50,13 @@ std::string parameter_fault(DistributionKind kind, const std::vector<double>& p)
         return fmt::format("integer wants whole numbers min <= max, found [{}, {}]", p[0], p[1]);
       }
       break;
+    case DistributionKind::kPoisson:
+      if (p[0] < 0 || p[0] > kLargestPoissonMean) {
+        return fmt::format("poisson wants a mean from 0 to {}, found {}", kLargestPoissonMean, p[0]);
+      }
+      break;
     case DistributionKind::kChoice:
+    case DistributionKind::kEmpirical:
       break;
   }
   return {};
@@ -75,39 +74,119 @@ std::string weight_fault(const std::vector<double>& weights) {
 }  // namespace
 
 PhiloxStream::Position EvaluationContext::position(Level level) const {
-  return {.scene = level == Level::kCampaign ? kNoIndex : scene,
+  const std::uint32_t redrawn = level == Level::kFrame ? frame_attempt * kPlacementStride : 0;
+  return {.scene = level == Level::kCampaign ? kNoIndex : draw_scene,
           .frame = level == Level::kFrame ? frame : kNoIndex,
           .copy = copy,
-          .attempt = attempt};
+          .attempt = redrawn + placement_attempt};
 }
 
 void EvaluationContext::report(const Place& place, const std::string& message) {
   if (error) return;
-  error =
-      Error{ErrorKind::kInput,
-            fmt::format("{}: {} (scene {}, frame {} of it{})", place.text(), message, scene, frame,
-                        copy == kNoIndex ? std::string() : fmt::format(", copy {}", copy))};
+  const std::string where = place.path.empty() && place.file.empty() ? "" : place.text() + ": ";
+  report_frame(where + message);
 }
 
-NumberDraw NumberDraw::compile(const NumberSource& source, const CompileScope& scope,
-                               const std::string& name, Level level, Diagnostics& errors) {
+void EvaluationContext::report_frame(const std::string& message) {
+  if (error) return;
+  error = Error{ErrorKind::kInput,
+                fmt::format("{} (scene {}, frame {} of it{})", message, scene, frame,
+                            copy == kNoIndex ? std::string() : fmt::format(", copy {}", copy))};
+}
+
+std::string draw_name(const std::string& name, const EvaluationContext& context) {
+  return context.copy == kNoIndex ? name : fmt::format("{}/{}", name, context.copy);
+}
+
+double NumberDraw::Random::uniform(const EvaluationContext& context) const {
+  PhiloxStream::Position position = context.position(level);
+  if (!sobol) return stream.uniform(position);
+  // The point by the index of scene or frame; a redrawn frame takes it from another scramble.
+  const std::uint32_t index = level == Level::kFrame
+                                  ? position.scene * context.frames_per_scene + position.frame
+                                  : position.scene;
+  position.scene = position.frame = kNoIndex;
+  return sobol->point(index, static_cast<std::uint32_t>(stream.bits(position) >> 32));
+}
+
+std::shared_ptr<const NumberDraw::Random> NumberDraw::compile_random(const NumberSource& source,
+                                                                     const CompileScope& scope,
+                                                                     const std::string& name,
+                                                                     Level level,
+                                                                     Diagnostics& errors) {
+  const Distribution& distribution = *std::get<std::shared_ptr<const Distribution>>(source.value);
+  Random random{distribution.kind,
+                level,
+                name,
+                PhiloxStream(scope.seed, name),
+                compile_all(distribution.parameters, scope, name, level, errors),
+                compile_all(distribution.weights, scope, name + ".weight", level, errors),
+                {},
+                distribution.samples,
+                std::nullopt};
+  const bool weights_vary =
+      std::any_of(distribution.weights.begin(), distribution.weights.end(),
+                  [](const NumberSource& w) { return !std::holds_alternative<double>(w.value); });
+  if (!weights_vary) {
+    for (const NumberSource& w : distribution.weights) {
+      random.constant_weights.push_back(std::get<double>(w.value));
+    }
+    const std::string fault = random.constant_weights.empty()
+                                  ? std::string()
+                                  : weight_fault(random.constant_weights);
+    if (!fault.empty()) errors.add(source.place, fault);
+  }
+  for (const NumberDraw& weight : random.weights) {
+    if (!weight.dimension().is_plain()) errors.add(weight.place(), "a weight has no unit");
+  }
+  if (distribution.sobol_dimension) {
+    if (scope.copies || level == Level::kCampaign) {
+      errors.add(source.place,
+                 "sobol covers scenes or frames evenly, and here are neither: draw it in "
+                 "variables.scene or variables.frame, and use that variable here");
+    }
+    random.sobol = SobolDimension(*distribution.sobol_dimension);
+  }
+  return std::make_shared<const Random>(std::move(random));
+}
+
+NumberDraw NumberDraw::compile_any(const NumberSource& source, const CompileScope& scope,
+                                   const std::string& name, Level level, Diagnostics& errors) {
   NumberDraw draw;
   draw.place_ = source.place;
   if (const double* constant = std::get_if<double>(&source.value)) {
     draw.value_ = *constant;
   } else if (const Formula* formula = std::get_if<Formula>(&source.value)) {
-    Result<CompiledFormula> compiled = CompiledFormula::compile(formula->text, scope.numbers);
-    if (compiled) {
-      draw.value_ = std::make_shared<const CompiledFormula>(std::move(*compiled));
-    } else {
+    Result<CompiledFormula> compiled = CompiledFormula::compile(formula->text, scope.symbols);
+    if (!compiled) {
       errors.add(source.place, compiled.error().message);
+    } else if (compiled->type().type != ValueType::kNumber) {
+      errors.add(source.place, "'" + formula->text + "' is a vector; a number is wanted here");
+    } else {
+      draw.dimension_ = compiled->type().dimension;
+      draw.value_ = std::make_shared<const CompiledFormula>(std::move(*compiled));
     }
   } else {
-    const Distribution& distribution = *std::get<std::shared_ptr<const Distribution>>(source.value);
-    draw.value_ = std::make_shared<const Random>(
-        Random{distribution.kind, level, name, PhiloxStream(scope.seed, name),
-               compile_all(distribution.parameters, scope, name, level, errors),
-               compile_all(distribution.weights, scope, name + ".weight", level, errors)});
+    std::shared_ptr<const Random> random = compile_random(source, scope, name, level, errors);
+    if (!random->parameters.empty()) draw.dimension_ = random->parameters.front().dimension_;
+    for (const NumberDraw& parameter : random->parameters) {
+      if (parameter.dimension_ == draw.dimension_) continue;
+      errors.add(source.place, "all parameters must have the same unit, found " +
+                                   draw.dimension_.text() + " and " + parameter.dimension_.text());
+      break;
+    }
+    draw.value_ = std::move(random);
+  }
+  return draw;
+}
+
+NumberDraw NumberDraw::compile(const NumberSource& source, const CompileScope& scope,
+                               const std::string& name, Level level, Diagnostics& errors) {
+  NumberDraw draw = compile_any(source, scope, name, level, errors);
+  const Dimension wanted = dimension_of_key(name);
+  if (!draw.dimension_.is_plain() && draw.dimension_ != wanted) {
+    errors.add(source.place, fmt::format("this is in {}, but {} is wanted here",
+                                         draw.dimension_.text(), wanted.text()));
   }
   return draw;
 }
@@ -115,28 +194,39 @@ NumberDraw NumberDraw::compile(const NumberSource& source, const CompileScope& s
 double NumberDraw::evaluate(EvaluationContext& context) const {
   if (const double* constant = std::get_if<double>(&value_)) return *constant;
   const auto* formula = std::get_if<std::shared_ptr<const CompiledFormula>>(&value_);
-  const double value = formula != nullptr
-                           ? (*formula)->evaluate()
-                           : draw(*std::get<std::shared_ptr<const Random>>(value_), context);
+  const double value =
+      formula != nullptr
+          ? (*formula)->number()
+          : draw(*std::get<std::shared_ptr<const Random>>(value_), place_, context);
   if (std::isfinite(value)) return value;
   context.report(place_, fmt::format("the value is {}, but a number must be finite", value));
   return 0.0;
 }
 
-double NumberDraw::draw(const Random& random, EvaluationContext& context) const {
-  const double u = random.stream.uniform(context.position(random.level));
+double NumberDraw::draw(const Random& random, const Place& place, EvaluationContext& context) {
+  const double u = random.uniform(context);
   double value = 0.0;
   if (random.kind == DistributionKind::kChoice) {
-    const std::vector<double> weights = evaluate_all(random.weights, context);
-    if (const std::string fault = weight_fault(weights); !fault.empty()) {
-      context.report(place_, fault);
-      return 0.0;
+    std::vector<double> drawn_weights;
+    if (random.constant_weights.empty()) {
+      for (const NumberDraw& weight : random.weights) {
+        drawn_weights.push_back(weight.evaluate(context));
+      }
+      if (const std::string fault = weight_fault(drawn_weights); !fault.empty()) {
+        context.report(place, fault);
+        return 0.0;
+      }
     }
-    value = random.parameters[quantile::choice(u, weights)].evaluate(context);
+    const std::size_t chosen = quantile::choice(
+        u, random.constant_weights.empty() ? drawn_weights : random.constant_weights);
+    value = random.parameters[chosen].evaluate(context);
   } else {
-    const std::vector<double> p = evaluate_all(random.parameters, context);
+    std::array<double, 4> p{};
+    for (std::size_t i = 0; i < random.parameters.size(); ++i) {
+      p[i] = random.parameters[i].evaluate(context);
+    }
     if (const std::string fault = parameter_fault(random.kind, p); !fault.empty()) {
-      context.report(place_, fault);
+      context.report(place, fault);
       return 0.0;
     }
     switch (random.kind) {
@@ -155,58 +245,130 @@ double NumberDraw::draw(const Random& random, EvaluationContext& context) const 
       case DistributionKind::kInteger:
         value = quantile::integer(u, p[0], p[1]);
         break;
+      case DistributionKind::kPoisson:
+        value = quantile::poisson(u, p[0]);
+        break;
+      case DistributionKind::kEmpirical:
+        value = quantile::empirical(u, *random.samples);
+        break;
       case DistributionKind::kChoice:
         break;
     }
   }
-  if (context.record != nullptr) {
-    context.record->push_back({record_name(random.name, context), value});
-  }
+  if (context.record != nullptr) context.record->push_back({draw_name(random.name, context), value});
   return value;
 }
 
-VectorDraw VectorDraw::compile(const std::array<NumberSource, 3>& components,
-                               const CompileScope& scope, const std::string& name, Level level,
-                               Diagnostics& errors) {
+VectorDraw VectorDraw::compile_any(const VectorSource& source, const CompileScope& scope,
+                                   const std::string& name, Level level, Diagnostics& errors) {
   VectorDraw vector;
-  for (std::size_t i = 0; i < 3; ++i) {
-    vector.components_[i] =
-        NumberDraw::compile(components[i], scope, fmt::format("{}[{}]", name, i), level, errors);
+  if (!source.formula) {
+    vector.place_ = source.components[0].place;
+    for (std::size_t i = 0; i < 3; ++i) {
+      vector.components_[i] = NumberDraw::compile_any(
+          source.components[i], scope, fmt::format("{}[{}]", name, i), level, errors);
+    }
+    vector.dimension_ = vector.components_[0].dimension();
+    for (const NumberDraw& component : vector.components_) {
+      if (component.dimension() == vector.dimension_) continue;
+      // A plain number goes with any unit that its key wants; two units do not go together.
+      if (vector.dimension_.is_plain()) vector.dimension_ = component.dimension();
+      if (component.dimension().is_plain() || component.dimension() == vector.dimension_) continue;
+      errors.add(vector.place_, "the components of a vector must have the same unit");
+      break;
+    }
+    return vector;
+  }
+  vector.place_ = source.formula->place;
+  const Formula& formula = std::get<Formula>(source.formula->value);
+  Result<CompiledFormula> compiled = CompiledFormula::compile(formula.text, scope.symbols);
+  if (!compiled) {
+    errors.add(vector.place_, compiled.error().message);
+  } else if (compiled->type().type != ValueType::kVector) {
+    errors.add(vector.place_, "'" + formula.text + "' is a number; a vector is wanted here");
+  } else {
+    vector.dimension_ = compiled->type().dimension;
+    vector.formula_ = std::make_shared<const CompiledFormula>(std::move(*compiled));
+  }
+  return vector;
+}
+
+VectorDraw VectorDraw::compile(const VectorSource& source, const CompileScope& scope,
+                               const std::string& name, Level level, Diagnostics& errors) {
+  VectorDraw vector = compile_any(source, scope, name, level, errors);
+  const Dimension wanted = dimension_of_key(name);
+  if (!vector.dimension_.is_plain() && vector.dimension_ != wanted) {
+    errors.add(vector.place_, fmt::format("this is in {}, but {} is wanted here",
+                                          vector.dimension_.text(), wanted.text()));
   }
   return vector;
 }
 
 Eigen::Vector3d VectorDraw::evaluate(EvaluationContext& context) const {
-  return {components_[0].evaluate(context), components_[1].evaluate(context),
-          components_[2].evaluate(context)};
+  if (!formula_) {
+    return {components_[0].evaluate(context), components_[1].evaluate(context),
+            components_[2].evaluate(context)};
+  }
+  const Eigen::Vector3d value = formula_->vector();
+  if (value.allFinite()) return value;
+  context.report(place_, fmt::format("the value is [{}, {}, {}], but a number must be finite",
+                                     value.x(), value.y(), value.z()));
+  return Eigen::Vector3d::Zero();
 }
 
 ColorDraw ColorDraw::compile(const ColorSource& source, const CompileScope& scope,
                              const std::string& name, Level level, Diagnostics& errors) {
   ColorDraw color;
   color.model_ = source.model;
+  if (source.model == ColorModel::kFormula) {
+    VectorSource formula;
+    formula.formula = source.components[0];
+    color.formula_ = VectorDraw::compile_any(formula, scope, name, level, errors);
+    if (!color.formula_->dimension().is_plain()) {
+      errors.add(color.formula_->place(), "a colour has no unit");
+    }
+    return color;
+  }
+  bool constant = true;
   for (std::size_t i = 0; i < 3; ++i) {
-    color.components_[i] = NumberDraw::compile(source.components[i], scope,
-                                               fmt::format("{}[{}]", name, i), level, errors);
+    constant = constant && std::holds_alternative<double>(source.components[i].value);
+    color.components_[i] = NumberDraw::compile_any(source.components[i], scope,
+                                                   fmt::format("{}[{}]", name, i), level, errors);
+    const Dimension& dimension = color.components_[i].dimension();
+    const bool fits = dimension.is_plain() ||
+                      (i == 0 && source.model == ColorModel::kHsv && dimension == kAngle) ||
+                      (i == 0 && source.model == ColorModel::kKelvin && dimension == kTemperature);
+    if (!fits) {
+      errors.add(color.components_[i].place(), "this unit has no meaning in a colour");
+    }
+  }
+  if (constant) {
+    EvaluationContext nowhere;
+    color.value_ = color.evaluate(nowhere);
+    color.constant_ = !nowhere.error;  // an error is reported when a frame is expanded
   }
   return color;
 }
 
 Rgb ColorDraw::evaluate(EvaluationContext& context) const {
+  if (constant_) return value_;
   std::array<double, 3> c{};
+  if (formula_) {
+    const Eigen::Vector3d value = formula_->evaluate(context);
+    c = {value.x(), value.y(), value.z()};
+  } else {
+    for (std::size_t i = 0; i < 3; ++i) c[i] = components_[i].evaluate(context);
+  }
   for (std::size_t i = 0; i < 3; ++i) {
-    c[i] = components_[i].evaluate(context);
     const bool may_be_negative = model_ == ColorModel::kHsv && i == 0;
     if (c[i] < 0.0 && !may_be_negative) {
-      context.report(components_[i].place(),
+      context.report(formula_ ? formula_->place() : components_[i].place(),
                      fmt::format("a colour must not be negative, found {}", c[i]));
       c[i] = 0.0;
     }
   }
   if (model_ == ColorModel::kKelvin) return linear_from_kelvin(c[0]);
-  if (model_ == ColorModel::kHsv) {
-    return linear_from_hsv(c[0], std::min(c[1], 1.0), c[2]);
-  }
+  if (model_ == ColorModel::kHsv) return linear_from_hsv(c[0], std::min(c[1], 1.0), c[2]);
   return c;
 }
 
@@ -223,15 +385,17 @@ std::vector<NameDraw::Piece> NameDraw::split(const std::string& text, const Comp
       return pieces;
     }
     const std::string variable = text.substr(open + 2, close - open - 2);
-    const auto found = scope.names.find(variable);
-    if (found == scope.names.end()) {
+    const auto found = scope.symbols.find(variable);
+    if (found == scope.symbols.end() || found->second.text == nullptr) {
       std::vector<std::string> known;
-      for (const auto& entry : scope.names) known.push_back(entry.first);
+      for (const auto& [name, symbol] : scope.symbols) {
+        if (symbol.text != nullptr) known.push_back(name);
+      }
       errors.add(place, "there is no variable of names '" + variable + "' here" +
                             did_you_mean(variable, known));
       return pieces;
     }
-    pieces.push_back({text.substr(start, open - start), found->second});
+    pieces.push_back({text.substr(start, open - start), found->second.text});
     start = close + 1;
   }
   if (start < text.size() || pieces.empty()) pieces.push_back({text.substr(start), nullptr});
@@ -247,13 +411,17 @@ NameDraw NameDraw::compile(const NameSource& source, const CompileScope& scope,
   if (source.options.size() > 1) draw.stream_ = PhiloxStream(scope.seed, name);
   for (const NameSource::Option& option : source.options) {
     draw.options_.push_back({split(option.text, scope, source.place, errors),
-                             NumberDraw::compile(option.weight, scope,
-                                                 name + ".weight." + option.text, level, errors)});
+                             NumberDraw::compile_any(option.weight, scope,
+                                                     name + ".weight." + option.text, level,
+                                                     errors)});
   }
   return draw;
 }
 
 std::string NameDraw::evaluate(EvaluationContext& context) const {
+  if (!stream_ && options_[0].pieces.size() == 1 && options_[0].pieces[0].variable == nullptr) {
+    return options_[0].pieces[0].text;
+  }
   std::size_t chosen = 0;
   if (stream_) {
     std::vector<double> weights;
@@ -270,7 +438,7 @@ std::string NameDraw::evaluate(EvaluationContext& context) const {
     if (piece.variable != nullptr) value += *piece.variable;
   }
   if (stream_ && context.record != nullptr) {
-    context.record->push_back({record_name(name_, context), value});
+    context.record->push_back({draw_name(name_, context), value});
   }
   return value;
 }

@@ -1,138 +1,59 @@
 #include "scene/expander.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "base/nearest_name.h"
-#include "base/portable_math.h"
-#include "base/sha256.h"
-#include "geometry/mesh_buffer.h"
-#include "geometry/primitives.h"
+#include "scene/camera_placer.h"
 #include "scene/compiled_config.h"
+#include "scene/ground.h"
+#include "scene/lighting.h"
+#include "scene/object_placer.h"
 #include "scene/placement.h"
 
 namespace seedframe {
-namespace {
-
-constexpr int kLargestInstanceId = 32767;  // Blender's limit of pass_index
-constexpr int kMostLights = 1024;
-constexpr std::uint32_t kPlacementAttempts = 1000;
-
-/// An object in the world, before the camera is known.
-struct PlacedInstance {
-  InstanceSpec spec;
-  Affine world_from_object = Affine::Identity();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of its bounding box, world
-};
-
-double at_least(const NumberDraw& draw, double least, bool open, const char* what,
-                EvaluationContext& context) {
-  const double value = draw.evaluate(context);
-  if (open ? value > least : value >= least) return value;
-  context.report(draw.place(), fmt::format("{} must be {} {}, found {}", what,
-                                           open ? "above" : "at least", least, value));
-  return least + 1.0;
-}
-
-double positive(const NumberDraw& draw, const char* what, EvaluationContext& context) {
-  return at_least(draw, 0.0, true, what, context);
-}
-
-double not_negative(const NumberDraw& draw, const char* what, EvaluationContext& context) {
-  return at_least(draw, 0.0, false, what, context);
-}
-
-double within(const NumberDraw& draw, double least, double most, const char* what,
-              EvaluationContext& context) {
-  const double value = draw.evaluate(context);
-  if (value >= least && value <= most) return value;
-  context.report(draw.place(),
-                 fmt::format("{} must be from {} to {}, found {}", what, least, most, value));
-  return least;
-}
-
-std::uint32_t copies_of(const NumberDraw& count, int most, EvaluationContext& context) {
-  const double value = std::floor(count.evaluate(context) + 0.5);
-  if (value >= 0.0 && value <= most) return static_cast<std::uint32_t>(value);
-  context.report(count.place(), fmt::format("a count must be from 0 to {}, found {}", most, value));
-  return 0;
-}
-
-}  // namespace
 
 class SceneExpander::Program {
  public:
-  Program(const CampaignConfig& config, AssetLibrary assets, MaterialLibrary materials)
+  Program(const CampaignConfig& config, AssetLibrary assets, MaterialLibrary materials,
+          std::optional<Graphs> graphs)
       : config_(config),
-        assets_(std::move(assets)),
+        graphs_(std::move(graphs)),
+        placer_(std::move(assets), config.categories),
         materials_(std::move(materials)),
         render_seed_(config.seed, "render.seed") {}
 
   Status compile();
-  Result<ExpandedFrame> expand(std::int64_t frame, bool record_draws);
+  Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes);
 
   std::int64_t frame_count() const { return config_.frame_count(); }
-
-  std::map<std::string, std::shared_ptr<const std::string>> mesh_buffers;
-  std::map<std::string, std::filesystem::path> textures;
-  std::map<std::string, std::string> asset_hashes;
+  const ObjectPlacer& placer() const { return placer_; }
+  const MaterialPicker& materials() const { return materials_; }
+  const std::vector<ConstraintTally>& tallies() const { return checker_->tallies(); }
 
  private:
-  void check_names(const CompiledObject& object, Diagnostics& errors);
   RenderSettings render_settings(const EvaluationContext& context) const;
-  void place_ground(FrameSpec& spec, std::vector<PlacedInstance>& placed,
-                    EvaluationContext& context);
-  void place_object(const CompiledObject& object, FrameSpec& spec,
-                    std::vector<PlacedInstance>& placed, EvaluationContext& context);
-  void scatter(const CompiledScatter& scatter, double radius, Eigen::Vector3d& position,
-               EvaluationContext& context) const;
-  int add_material(const CompiledMaterials& materials, FrameSpec& spec, EvaluationContext& context);
-  void add_textures(const std::string& set, const Place& place, MaterialSpec& material,
-                    EvaluationContext& context);
-  int category_index(const CompiledObject& object, const Asset& asset, EvaluationContext& context);
-  std::shared_ptr<const Asset> load_asset(const std::string& name, const Place& place,
-                                          EvaluationContext& context);
-  Affine place_camera(const std::vector<PlacedInstance>& placed, FrameSpec& spec,
-                      EvaluationContext& context);
-  void add_lights(const Affine& world_from_camera, FrameSpec& spec, EvaluationContext& context);
-  LightSpec one_light(const CompiledLight& light, const Affine& world_from_camera,
-                      EvaluationContext& context);
+  void set_sweep(std::int64_t combination);
+  void evaluate_variables(EvaluationContext& context);
+  /// One attempt at the frame.
+  FrameDraft draft_frame(EvaluationContext& context);
 
   CampaignConfig config_;
-  AssetLibrary assets_;
-  MaterialLibrary materials_;
+  std::optional<Graphs> graphs_;
+  std::int64_t graph_line_ = -1;  ///< the one that the variables have now
+  ObjectPlacer placer_;
+  MaterialPicker materials_;
+  GroundMaker ground_;
   PhiloxStream render_seed_;
   CompiledConfig compiled_;
-  std::vector<Footprint> footprints_;  ///< of the frame being expanded
-  std::map<std::filesystem::path, std::string> texture_hashes_;
+  std::unique_ptr<ConstraintChecker> checker_;
 };
 
 Status SceneExpander::Program::compile() {
   Diagnostics errors;
-  compile_config(config_, materials_, compiled_, errors);
-  for (const CompiledObject& object : compiled_.objects) check_names(object, errors);
+  compile_config(config_, materials_.library(), compiled_, errors);
+  for (const CompiledObject& object : compiled_.objects) placer_.check_names(object, errors);
   if (!errors.empty()) return tl::unexpected(errors.as_error());
+  checker_ = std::make_unique<ConstraintChecker>(compiled_.constraints);
   return {};
-}
-
-void SceneExpander::Program::check_names(const CompiledObject& object, Diagnostics& errors) {
-  for (const std::string& name :
-       object.asset.possible_values().value_or(std::vector<std::string>())) {
-    const auto asset = assets_.load(name);
-    if (!asset) errors.add(object.asset.place(), asset.error().message);
-  }
-  if (!object.category) return;
-  for (const std::string& name :
-       object.category->possible_values().value_or(std::vector<std::string>())) {
-    const bool known =
-        name == "none" || std::find(config_.categories.begin(), config_.categories.end(), name) !=
-                              config_.categories.end();
-    if (!known) {
-      errors.add(object.category->place(), "'" + name + "' is not among the campaign's categories" +
-                                               did_you_mean(name, config_.categories));
-    }
-  }
 }
 
 RenderSettings SceneExpander::Program::render_settings(const EvaluationContext& context) const {
@@ -151,298 +72,106 @@ RenderSettings SceneExpander::Program::render_settings(const EvaluationContext& 
   return render;
 }
 
-Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame, bool record_draws) {
-  ExpandedFrame result;
-  result.scene = frame / config_.frames_per_scene;
-  result.view = frame % config_.frames_per_scene;
-  EvaluationContext context;
-  context.scene = static_cast<std::uint32_t>(result.scene);
-  context.frame = static_cast<std::uint32_t>(result.view);
-  context.record = record_draws ? &result.draws : nullptr;
-  *compiled_.built_in.scene_index = static_cast<double>(result.scene);
-  *compiled_.built_in.frame_index = static_cast<double>(result.view);
+void SceneExpander::Program::set_sweep(std::int64_t combination) {
+  std::vector<std::size_t> indices(config_.sweep.axes.size());
+  for (std::size_t i = indices.size(); i-- > 0;) {  // the last axis fastest
+    const auto points = static_cast<std::int64_t>(config_.sweep.axes[i].points.size());
+    indices[i] = static_cast<std::size_t>(combination % points);
+    combination /= points;
+  }
+  for (const CompiledSweep::Variable& variable : compiled_.sweep.variables) {
+    const auto& value =
+        config_.sweep.axes[variable.axis].points[indices[variable.axis]].at(variable.name);
+    if (variable.number != nullptr) {
+      *variable.number = std::get<double>(value);
+    } else {
+      *variable.text = std::get<std::string>(value);
+    }
+  }
+}
+
+void SceneExpander::Program::evaluate_variables(EvaluationContext& context) {
+  *compiled_.built_in.scene_index = static_cast<double>(context.scene);
+  *compiled_.built_in.frame_index = static_cast<double>(context.frame);
   compiled_.campaign_variables.evaluate(context);
   compiled_.scene_variables.evaluate(context);
   compiled_.frame_variables.evaluate(context);
+}
 
-  FrameSpec& spec = result.spec;
+FrameDraft SceneExpander::Program::draft_frame(EvaluationContext& context) {
+  FrameDraft draft;
+  FrameSpec& spec = draft.spec;
+  evaluate_variables(context);
   spec.render = render_settings(context);
   spec.image = {config_.image.display, config_.image.view, config_.image.look,
                 config_.image.exposure_stops, config_.image.gamma};
-  spec.world = {compiled_.world_color.evaluate(context),
-                not_negative(compiled_.world_strength, "the world's strength", context)};
-  footprints_.clear();
-  std::vector<PlacedInstance> placed;
-  place_ground(spec, placed, context);
-  for (const CompiledObject& object : compiled_.objects) {
-    place_object(object, spec, placed, context);
-    if (context.error) break;
-  }
-  const Affine world_from_camera = place_camera(placed, spec, context);
-  add_lights(world_from_camera, spec, context);
-  if (context.error) return tl::unexpected(*context.error);
-
-  for (PlacedInstance& instance : placed) {
+  if (compiled_.ground) ground_.add(*compiled_.ground, materials_, draft, context);
+  placer_.place_all(compiled_, materials_, draft, context);
+  const Affine world_from_camera = place_camera(compiled_, draft, context);
+  add_lights(compiled_, world_from_camera, draft, context);
+  set_world(compiled_.world, world_from_camera, materials_, draft, context);
+  for (PlacedInstance& instance : draft.placed) {
     instance.spec.camera_from_object =
         relative_to_camera(world_from_camera, instance.world_from_object);
     if (!instance.spec.camera_from_object.matrix().allFinite()) {
-      return fail(ErrorKind::kInput, "{}: the position of '{}' is too large to compute with",
-                  config_.name, instance.spec.name);
+      context.report(Place{}, fmt::format("{}: the position of '{}' is too large to compute with",
+                                          config_.name, instance.spec.name));
     }
-    spec.instances.push_back(std::move(instance.spec));
   }
-  result.id = frame_id(spec);
+  return draft;
+}
+
+Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
+                                                     const ExpansionWishes& wishes) {
+  ExpandedFrame result;
+  result.scene = frame / config_.frames_per_scene;
+  result.view = frame % config_.frames_per_scene;
+  const std::int64_t combinations = config_.sweep.size();
+  EvaluationContext context;
+  context.scene = static_cast<std::uint32_t>(result.scene);
+  context.frame = static_cast<std::uint32_t>(result.view);
+  context.frames_per_scene = static_cast<std::uint32_t>(config_.frames_per_scene);
+  context.draw_scene = static_cast<std::uint32_t>(
+      config_.sweep.hold_draws ? result.scene / combinations : result.scene);
+  set_sweep(result.scene % combinations);
+  if (graphs_ && graph_line_ != result.scene) {
+    if (Status applied = graphs_->apply(result.scene, compiled_.graph_variables); !applied) {
+      return forward_error(applied);
+    }
+    graph_line_ = result.scene;
+  }
+  const CompiledConstraint* unmet = nullptr;
+  std::optional<FrameDraft> draft;
+  const auto most = static_cast<std::uint32_t>(config_.max_attempts);
+  for (; context.frame_attempt < most; ++context.frame_attempt) {
+    result.draws.clear();
+    context.record = wishes.draws ? &result.draws : nullptr;
+    result.graph = wishes.graph ? Json::object() : Json();
+    context.graph = wishes.graph ? &result.graph : nullptr;
+    draft = draft_frame(context);
+    if (context.error) return tl::unexpected(*context.error);
+    unmet = checker_->first_unmet(*draft, context);
+    if (context.error) return tl::unexpected(*context.error);
+    if (unmet == nullptr) break;
+  }
+  if (unmet != nullptr) {
+    context.report(unmet->place,
+                   fmt::format("no draw of this frame met all constraints in {} attempts; in the "
+                               "last one '{}' was not met. Loosen it, widen what is drawn for each "
+                               "frame (only frame-level draws are made again), or raise "
+                               "max_attempts",
+                               most, unmet->name));
+    return tl::unexpected(*context.error);
+  }
+  result.attempts = context.frame_attempt + 1;
+  result.spec = std::move(draft->spec);
+  result.ground_buffer = draft->ground_buffer;
+  result.spec.instances.reserve(draft->placed.size());
+  for (PlacedInstance& instance : draft->placed) {
+    result.spec.instances.push_back(std::move(instance.spec));
+  }
+  if (wishes.id) result.id = frame_id(result.spec);
   return result;
-}
-
-void SceneExpander::Program::place_ground(FrameSpec& spec, std::vector<PlacedInstance>& placed,
-                                          EvaluationContext& context) {
-  if (!compiled_.ground) return;
-  const double width = positive(compiled_.ground->width_m, "the ground's width_m", context);
-  const double depth = positive(compiled_.ground->depth_m, "the ground's depth_m", context);
-  const std::string buffer = mesh_buffer(ground_plane(width, depth));
-  PlacedInstance ground;
-  ground.spec.name = "ground";
-  ground.spec.mesh = sha256_hex(buffer);
-  ground.spec.materials = {add_material(compiled_.ground->materials, spec, context)};
-  mesh_buffers.try_emplace(ground.spec.mesh, std::make_shared<const std::string>(buffer));
-  placed.push_back(std::move(ground));
-}
-
-std::shared_ptr<const Asset> SceneExpander::Program::load_asset(const std::string& name,
-                                                                const Place& place,
-                                                                EvaluationContext& context) {
-  auto asset = assets_.load(name);
-  if (!asset) {
-    context.report(place, asset.error().message);
-    return nullptr;
-  }
-  asset_hashes.try_emplace(name, (*asset)->mesh_sha256);
-  // Shares the asset's bytes instead of copying them.
-  mesh_buffers.try_emplace((*asset)->buffer_sha256, *asset, &(*asset)->buffer);
-  return *asset;
-}
-
-int SceneExpander::Program::category_index(const CompiledObject& object, const Asset& asset,
-                                           EvaluationContext& context) {
-  const std::string name = object.category ? object.category->evaluate(context) : asset.category;
-  if (name.empty() || name == "none") return 0;
-  const auto found = std::find(config_.categories.begin(), config_.categories.end(), name);
-  if (found == config_.categories.end()) {
-    context.report(object.category ? object.category->place() : object.place,
-                   fmt::format("the category '{}' of asset '{}' is not among the campaign's "
-                               "categories; add it there, or set category: none",
-                               name, asset.name));
-    return 0;
-  }
-  return static_cast<int>(found - config_.categories.begin()) + 1;
-}
-
-void SceneExpander::Program::place_object(const CompiledObject& object, FrameSpec& spec,
-                                          std::vector<PlacedInstance>& placed,
-                                          EvaluationContext& context) {
-  const std::uint32_t copies = copies_of(object.count, kLargestInstanceId, context);
-  *compiled_.built_in.copies = copies;
-  for (std::uint32_t copy = 0; copy < copies && !context.error; ++copy) {
-    context.copy = copy;
-    *compiled_.built_in.copy_index = copy;
-    object.variables.evaluate(context);
-    const auto asset = load_asset(object.asset.evaluate(context), object.asset.place(), context);
-    if (!asset) break;
-    const Eigen::Matrix3d linear = rotation_and_scale(object.rotation_deg.evaluate(context),
-                                                      positive(object.scale, "scale", context));
-    Eigen::Vector3d position = object.position.evaluate(context);
-    const double radius = footprint_radius(asset->box.low, asset->box.high, linear);
-    if (object.scatter) scatter(*object.scatter, radius, position, context);
-    footprints_.push_back({position.x(), position.y(), radius});
-    if (object.rest_on_ground) position.z() -= asset->lowest_z(linear);
-
-    PlacedInstance instance;
-    instance.spec.name = fmt::format("{}/{}", object.name, copy);
-    const auto ground_count = static_cast<std::size_t>(compiled_.ground.has_value());
-    instance.spec.id = static_cast<int>(placed.size() - ground_count) + 1;
-    if (instance.spec.id > kLargestInstanceId) {
-      context.report(object.place,
-                     fmt::format("a frame can hold at most {} objects", kLargestInstanceId));
-    }
-    instance.spec.category = category_index(object, *asset, context);
-    instance.spec.mesh = asset->buffer_sha256;
-    instance.spec.materials.assign(asset->mesh.slot_names.size(),
-                                   add_material(object.materials, spec, context));
-    instance.world_from_object.linear() = linear;
-    instance.world_from_object.translation() = position;
-    instance.centre = linear * asset->box.centre() + position;
-    placed.push_back(std::move(instance));
-  }
-  context.copy = kNoIndex;
-}
-
-void SceneExpander::Program::scatter(const CompiledScatter& scatter, double radius,
-                                     Eigen::Vector3d& position, EvaluationContext& context) const {
-  const double gap = not_negative(scatter.gap_m, "gap_m", context);
-  const std::array<double, 2> x = {scatter.x[0].evaluate(context), scatter.x[1].evaluate(context)};
-  const std::array<double, 2> y = {scatter.y[0].evaluate(context), scatter.y[1].evaluate(context)};
-  if (x[0] > x[1] || y[0] > y[1]) {
-    context.report(scatter.place, "x and y want [least, most] with least <= most");
-    return;
-  }
-  auto* const record = std::exchange(context.record, nullptr);  // rejected draws would confuse
-  const auto draw = [&] {
-    position.x() = x[0] + (x[1] - x[0]) * scatter.x_draw.evaluate(context);
-    position.y() = y[0] + (y[1] - y[0]) * scatter.y_draw.evaluate(context);
-  };
-  bool found = false;
-  while (!found && context.attempt < kPlacementAttempts) {
-    draw();
-    found = is_clear({position.x(), position.y(), radius}, footprints_, gap);
-    if (!found) ++context.attempt;
-  }
-  context.record = record;
-  if (found && record != nullptr) draw();
-  context.attempt = 0;
-  if (!found) {
-    context.report(scatter.place,
-                   fmt::format("no free place was found in {} attempts: enlarge x and y, or lower "
-                               "count, scale or gap_m",
-                               kPlacementAttempts));
-  }
-}
-
-int SceneExpander::Program::add_material(const CompiledMaterials& materials, FrameSpec& spec,
-                                         EvaluationContext& context) {
-  const std::string name = materials.name.evaluate(context);
-  const auto found = materials.by_name.find(name);
-  if (found == materials.by_name.end()) {
-    context.report(materials.name.place(), "there is no material '" + name + "'" +
-                                               did_you_mean(name, materials_.material_names()));
-    return 0;
-  }
-  const CompiledMaterial& source = found->second;
-  MaterialSpec material;
-  material.base_color = source.base_color.evaluate(context);
-  material.metallic = within(source.metallic, 0, 1, "metallic", context);
-  material.roughness = within(source.roughness, 0, 1, "roughness", context);
-  material.specular = within(source.specular, 0, 1, "specular", context);
-  material.transmission = within(source.transmission, 0, 1, "transmission", context);
-  material.ior = within(source.ior, 1, 5, "ior", context);
-  material.clearcoat = within(source.clearcoat, 0, 1, "clearcoat", context);
-  material.texture_repeat = positive(source.texture_repeat, "texture_repeat", context);
-  if (source.textures) {
-    add_textures(source.textures->evaluate(context), source.textures->place(), material, context);
-  }
-  const auto same = std::find(spec.materials.begin(), spec.materials.end(), material);
-  if (same != spec.materials.end()) return static_cast<int>(same - spec.materials.begin());
-  spec.materials.push_back(std::move(material));
-  return static_cast<int>(spec.materials.size()) - 1;
-}
-
-void SceneExpander::Program::add_textures(const std::string& set, const Place& place,
-                                          MaterialSpec& material, EvaluationContext& context) {
-  const auto found = materials_.texture_sets().find(set);
-  if (found == materials_.texture_sets().end()) {
-    context.report(place, "there is no texture set '" + set + "'" +
-                              did_you_mean(set, materials_.texture_set_names()));
-    return;
-  }
-  for (const auto& [role, file] : found->second.files) {
-    auto hash = texture_hashes_.find(file);
-    if (hash == texture_hashes_.end()) {
-      const Result<std::string> computed = sha256_of_file(file);
-      if (!computed) {
-        context.report(place, computed.error().message);
-        return;
-      }
-      hash = texture_hashes_.emplace(file, *computed).first;
-      textures.try_emplace(*computed, file);
-    }
-    material.textures[role] = hash->second;
-  }
-}
-
-Affine SceneExpander::Program::place_camera(const std::vector<PlacedInstance>& placed,
-                                            FrameSpec& spec, EvaluationContext& context) {
-  const CompiledCamera& camera = compiled_.camera;
-  camera.variables.evaluate(context);
-  if (camera.focal_px) {
-    spec.camera.focal_px = positive(*camera.focal_px, "focal_px", context);
-  } else {
-    const double fov = within(*camera.fov_deg, 0.01, 179.0, "fov_deg", context);
-    spec.camera.focal_px = 0.5 * config_.render.width / portable::tan(0.5 * portable::radians(fov));
-  }
-  // The sensor is 36 mm wide in Blender, and it clamps a lens below 1 mm without a word.
-  if (spec.camera.focal_px < config_.render.width / 36.0) {
-    context.report(camera.fov_deg ? camera.fov_deg->place() : camera.focal_px->place(),
-                   "the view is too wide: Blender's lenses reach 173.6 degrees (a focal length of "
-                   "1/36 of the image's width)");
-  }
-  spec.camera.clip_start_m = positive(camera.clip_start_m, "clip_start_m", context);
-  spec.camera.clip_end_m =
-      at_least(camera.clip_end_m, spec.camera.clip_start_m, true, "clip_end_m", context);
-  Eigen::Vector3d target = Eigen::Vector3d::Zero();
-  if (camera.target) {
-    target = camera.target->evaluate(context);
-  } else {
-    int objects = 0;
-    for (const PlacedInstance& instance : placed) {
-      if (instance.spec.id == 0) continue;
-      target += instance.centre;
-      ++objects;
-    }
-    if (objects > 0) target /= objects;
-  }
-  Eigen::Vector3d position;
-  if (camera.position) {
-    position = camera.position->evaluate(context);
-  } else {
-    position = on_shell(target, positive(camera.distance_m, "distance_m", context),
-                        camera.azimuth_deg.evaluate(context),
-                        within(camera.elevation_deg, -90, 90, "elevation_deg", context));
-  }
-  if (position == target) {
-    context.report(camera.place, "the camera stands where it looks: move position or target");
-    return Affine::Identity();
-  }
-  return looking_at(position, target, camera.roll_deg.evaluate(context));
-}
-
-void SceneExpander::Program::add_lights(const Affine& world_from_camera, FrameSpec& spec,
-                                        EvaluationContext& context) {
-  for (const CompiledLight& light : compiled_.lights) {
-    const std::uint32_t copies = copies_of(light.count, kMostLights, context);
-    *compiled_.built_in.copies = copies;
-    for (std::uint32_t copy = 0; copy < copies && !context.error; ++copy) {
-      context.copy = copy;
-      *compiled_.built_in.copy_index = copy;
-      spec.lights.push_back(one_light(light, world_from_camera, context));
-    }
-    context.copy = kNoIndex;
-  }
-}
-
-LightSpec SceneExpander::Program::one_light(const CompiledLight& light,
-                                            const Affine& world_from_camera,
-                                            EvaluationContext& context) {
-  light.variables.evaluate(context);
-  LightSpec spec;
-  spec.kind = static_cast<LightKind>(light.type);
-  const Eigen::Vector3d position = light.position.evaluate(context);
-  Eigen::Vector3d target = light.target.evaluate(context);
-  if (position == target) target -= Eigen::Vector3d::UnitZ();
-  spec.camera_from_light = relative_to_camera(world_from_camera, looking_at(position, target, 0.0));
-  spec.color = light.color.evaluate(context);
-  spec.power = not_negative(light.power, "power", context);
-  if (light.type == LightType::kPoint || light.type == LightType::kSpot) {
-    spec.radius_m = not_negative(light.radius_m, "radius_m", context);
-  }
-  if (light.type == LightType::kSun || light.type == LightType::kSpot) {
-    spec.angle_rad = portable::radians(within(light.angle_deg, 0, 180, "angle_deg", context));
-  }
-  if (light.type == LightType::kSpot) spec.blend = within(light.blend, 0, 1, "blend", context);
-  if (light.type == LightType::kArea) {
-    spec.width_m = positive(light.width_m, "width_m", context);
-    spec.height_m = positive(light.height_m, "height_m", context);
-  }
-  return spec;
 }
 
 SceneExpander::SceneExpander(std::unique_ptr<Program> program) : program_(std::move(program)) {}
@@ -451,29 +180,35 @@ SceneExpander::SceneExpander(SceneExpander&&) noexcept = default;
 SceneExpander& SceneExpander::operator=(SceneExpander&&) noexcept = default;
 
 Result<SceneExpander> SceneExpander::compile(const CampaignConfig& config, AssetLibrary assets,
-                                             MaterialLibrary materials) {
-  auto program = std::make_unique<Program>(config, std::move(assets), std::move(materials));
+                                             MaterialLibrary materials,
+                                             std::optional<Graphs> graphs) {
+  auto program = std::make_unique<Program>(config, std::move(assets), std::move(materials),
+                                           std::move(graphs));
   if (Status compiled = program->compile(); !compiled) return forward_error(compiled);
   return SceneExpander(std::move(program));
 }
 
-Result<ExpandedFrame> SceneExpander::expand(std::int64_t frame, bool record_draws) {
-  return program_->expand(frame, record_draws);
+Result<ExpandedFrame> SceneExpander::expand(std::int64_t frame, const ExpansionWishes& wishes) {
+  return program_->expand(frame, wishes);
 }
 
 std::int64_t SceneExpander::frame_count() const { return program_->frame_count(); }
 
 const std::map<std::string, std::shared_ptr<const std::string>>& SceneExpander::mesh_buffers()
     const {
-  return program_->mesh_buffers;
+  return program_->placer().mesh_buffers();
 }
 
-const std::map<std::string, std::filesystem::path>& SceneExpander::textures() const {
-  return program_->textures;
+const std::map<std::string, std::filesystem::path>& SceneExpander::image_files() const {
+  return program_->materials().files();
 }
 
 const std::map<std::string, std::string>& SceneExpander::asset_hashes() const {
-  return program_->asset_hashes;
+  return program_->placer().asset_hashes();
+}
+
+const std::vector<ConstraintTally>& SceneExpander::constraint_tallies() const {
+  return program_->tallies();
 }
 
 }  // namespace seedframe

@@ -11,18 +11,31 @@
 #include "base/error.h"
 #include "config/campaign_config.h"
 #include "geometry/asset_library.h"
+#include "scene/constraints.h"
 #include "scene/draw.h"
 #include "scene/frame_spec.h"
+#include "scene/graphs.h"
 #include "scene/material_library.h"
 
 namespace seedframe {
 
 struct ExpandedFrame {
   FrameSpec spec;
-  std::string id;           ///< frame_id(spec)
-  std::int64_t scene = 0;   ///< index of the scene
-  std::int64_t view = 0;    ///< index of the frame within its scene
-  std::vector<Draw> draws;  ///< when asked for
+  std::string id;              ///< frame_id(spec), when asked for
+  std::int64_t scene = 0;      ///< index of the scene
+  std::int64_t view = 0;       ///< index of the frame within its scene
+  std::uint32_t attempts = 1;  ///< to meet the constraints
+  std::vector<Draw> draws;     ///< when asked for
+  Json graph;                  ///< the values of all variables, when asked for
+  /// The mesh of the ground, if there is one; its SHA-256 is in the spec.
+  std::shared_ptr<const std::string> ground_buffer;
+};
+
+/// What expanding a frame should tell beside its spec.
+struct ExpansionWishes {
+  bool id = true;
+  bool draws = false;
+  bool graph = false;
 };
 
 /// A compiled config. Not for use from several threads at once.
@@ -31,23 +44,26 @@ class SceneExpander {
   /// Compiles every formula, resolves every name that can be known without a draw, and loads those
   /// assets. The error names every mistake.
   static Result<SceneExpander> compile(const CampaignConfig& config, AssetLibrary assets,
-                                       MaterialLibrary materials);
+                                       MaterialLibrary materials,
+                                       std::optional<Graphs> graphs = std::nullopt);
   ~SceneExpander();
   SceneExpander(SceneExpander&&) noexcept;
   SceneExpander& operator=(SceneExpander&&) noexcept;
 
   /// Frames are numbered scene by scene: frame = scene · frames_per_scene + view. Errors say which
   /// key of the config made the frame impossible.
-  Result<ExpandedFrame> expand(std::int64_t frame, bool record_draws = false);
+  Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes = {});
 
   std::int64_t frame_count() const;
 
-  /// Mesh buffers of all frames expanded so far, by SHA-256.
+  /// Mesh buffers of all frames expanded so far, by SHA-256; grounds are with their frames.
   const std::map<std::string, std::shared_ptr<const std::string>>& mesh_buffers() const;
-  /// Texture files of all frames expanded so far, by SHA-256.
-  const std::map<std::string, std::filesystem::path>& textures() const;
+  /// Textures and environment maps of all frames expanded so far, by SHA-256.
+  const std::map<std::string, std::filesystem::path>& image_files() const;
   /// Assets used so far: name to SHA-256 of its file, for provenance.
   const std::map<std::string, std::string>& asset_hashes() const;
+  /// Over all frames expanded so far, in the order of the config.
+  const std::vector<ConstraintTally>& constraint_tallies() const;
 
  private:
   class Program;

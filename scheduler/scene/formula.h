@@ -1,34 +1,59 @@
-// Formulas of a config: arithmetic over variables, evaluated by muParser with portable functions.
+// Formulas of a config: typed arithmetic over numbers with units, vectors and texts.
+//
+// The grammar, loosest first: a ? b : c, ||, &&, == != < <= > >=, + -, * /, unary - + !, then
+// v.x, v[0] and calls. Types and units are checked when a formula is compiled; what is computed goes
+// through portable functions, so that the last bit does not depend on the CPU.
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "scene/dimension.h"
 
 namespace seedframe {
 
-/// The variables that a formula may name, each with the place its value is read from at evaluation.
-using Scope = std::map<std::string, const double*>;
+enum class ValueType { kNumber, kVector, kText };
+
+struct FormulaType {
+  ValueType type = ValueType::kNumber;
+  Dimension dimension;  ///< of a number, or of each component of a vector
+
+  bool operator==(const FormulaType&) const = default;
+};
+
+/// A variable: where its value is read when a formula is evaluated. A number is one double, a
+/// vector three.
+struct Symbol {
+  FormulaType type;
+  const double* numbers = nullptr;
+  const std::string* text = nullptr;
+};
+using Scope = std::map<std::string, Symbol>;
+
+Symbol number_symbol(const double* value, Dimension dimension = {});
 
 class CompiledFormula {
  public:
   /// Errors say what is wrong without the place, which the caller knows: syntax, an unknown
-  /// variable or function (with "did you mean"), operators that are not offered (^ and =).
+  /// variable, function or unit (with "did you mean"), types or units that do not go together.
   static Result<CompiledFormula> compile(const std::string& text, const Scope& scope);
   ~CompiledFormula();
   CompiledFormula(CompiledFormula&&) noexcept;
   CompiledFormula& operator=(CompiledFormula&&) noexcept;
 
-  /// May be NaN or infinite (1/0): the caller checks.
-  double evaluate() const;
+  FormulaType type() const;
+  /// In base units (degrees, metres, …). May be NaN or infinite (1/0): the caller checks.
+  double number() const;
+  Eigen::Vector3d vector() const;
 
  private:
-  struct State;
-  explicit CompiledFormula(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  struct Program;
+  explicit CompiledFormula(std::unique_ptr<Program> program);
+  std::unique_ptr<Program> program_;
 };
 
 /// Names of variables in a formula, whether or not they exist. Empty when it has no syntax.

@@ -7,15 +7,176 @@
 namespace seedframe {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr std::array<const char*, 4> kLightKinds = {"point", "sun", "spot", "area"};
 
-Json matrix_json(const Affine& transform) {
-  Json numbers = Json::array();
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) numbers.push_back(transform(row, column));
+/// Appends canonical JSON; keys must come in byte order.
+class Writer {
+ public:
+  explicit Writer(std::string& out) : out_(out) {}
+
+  void open(char bracket) {
+    out_ += bracket;
+    first_ = true;
   }
-  return numbers;
+  void close(char bracket) {
+    out_ += bracket;
+    first_ = false;
+  }
+  void key(std::string_view name) {
+    separate();
+    out_ += '"';
+    out_ += name;
+    out_ += "\":";
+  }
+  void item() { separate(); }
+
+  void number(double value) { append_canonical(out_, value); }
+  void text(std::string_view value) { append_canonical(out_, value); }
+
+  void field(std::string_view name, double value) {
+    key(name);
+    number(value);
+  }
+  void field(std::string_view name, std::string_view value) {
+    key(name);
+    text(value);
+  }
+  void field(std::string_view name, bool value) {
+    key(name);
+    out_ += value ? "true" : "false";
+  }
+  template <class Numbers>
+  void numbers(std::string_view name, const Numbers& values) {
+    key(name);
+    open('[');
+    for (const auto& value : values) {
+      item();
+      number(static_cast<double>(value));
+    }
+    close(']');
+  }
+  template <class Matrix>
+  void matrix(std::string_view name, const Matrix& values) {
+    key(name);
+    open('[');
+    for (int row = 0; row < values.rows(); ++row) {
+      for (int column = 0; column < values.cols(); ++column) {
+        item();
+        number(values(row, column));
+      }
+    }
+    close(']');
+  }
+  template <class Items, class Write>
+  void list(std::string_view name, const Items& items, Write write) {
+    key(name);
+    open('[');
+    for (const auto& each : items) {
+      item();
+      open('{');
+      write(*this, each);
+      close('}');
+    }
+    close(']');
+  }
+
+ private:
+  void separate() {
+    if (!first_) out_ += ',';
+    first_ = false;
+  }
+
+  std::string& out_;
+  bool first_ = true;
+};
+
+void write_camera(Writer& out, const CameraSpec& camera) {
+  out.field("aperture_radius_m", camera.aperture_radius_m);
+  out.numbers("center_px", camera.center_px);
+  out.field("clip_end_m", camera.clip_end_m);
+  out.field("clip_start_m", camera.clip_start_m);
+  out.numbers("focal_px", camera.focal_px);
+  out.field("focus_distance_m", camera.focus_distance_m);
+}
+
+void write_image(Writer& out, const ImageSettings& image) {
+  out.field("display", std::string_view(image.display));
+  out.field("exposure_stops", image.exposure_stops);
+  out.field("gamma", image.gamma);
+  out.field("look", std::string_view(image.look));
+  out.field("view", std::string_view(image.view));
+}
+
+void write_instance(Writer& out, const InstanceSpec& instance) {
+  out.matrix("camera_from_object", instance.camera_from_object.matrix());
+  out.field("category", static_cast<double>(instance.category));
+  out.key("hidden_from");
+  out.open('[');
+  const HiddenFrom& hidden = instance.hidden_from;
+  for (const auto& [flag, name] :
+       {std::pair(hidden.camera, "camera"), std::pair(hidden.diffuse, "diffuse"),
+        std::pair(hidden.glossy, "glossy"), std::pair(hidden.shadow, "shadow"),
+        std::pair(hidden.transmission, "transmission")}) {
+    if (!flag) continue;
+    out.item();
+    out.text(name);
+  }
+  out.close(']');
+  out.field("id", static_cast<double>(instance.id));
+  out.numbers("materials", instance.materials);
+  out.field("mesh", std::string_view(instance.mesh));
+  out.field("name", std::string_view(instance.name));
+}
+
+void write_light(Writer& out, const LightSpec& light) {
+  const bool spot = light.kind == LightKind::kSpot;
+  const bool area = light.kind == LightKind::kArea;
+  if (spot || light.kind == LightKind::kSun) out.field("angle_rad", light.angle_rad);
+  if (spot) out.field("blend", light.blend);
+  out.matrix("camera_from_light", light.camera_from_light.matrix());
+  out.numbers("color", light.color);
+  if (area) out.field("height_m", light.height_m);
+  out.field("kind", std::string_view(kLightKinds[static_cast<std::size_t>(light.kind)]));
+  out.field("power", light.power);
+  if (spot || light.kind == LightKind::kPoint) out.field("radius_m", light.radius_m);
+  if (area) out.field("width_m", light.width_m);
+}
+
+void write_material(Writer& out, const MaterialSpec& material) {
+  out.numbers("base_color", material.base_color);
+  out.field("clearcoat", material.clearcoat);
+  out.field("ior", material.ior);
+  out.field("metallic", material.metallic);
+  out.field("roughness", material.roughness);
+  out.field("specular", material.specular);
+  out.field("texture_repeat", material.texture_repeat);
+  out.key("textures");
+  out.open('{');
+  for (const auto& [role, hash] : material.textures) out.field(role, std::string_view(hash));
+  out.close('}');
+  out.field("transmission", material.transmission);
+}
+
+void write_render(Writer& out, const RenderSettings& render) {
+  out.field("clamp_indirect", render.clamp_indirect);
+  out.field("depth", render.depth);
+  out.field("filter_width_px", render.filter_width_px);
+  out.field("height", static_cast<double>(render.height));
+  out.field("max_bounces", static_cast<double>(render.max_bounces));
+  out.field("normal", render.normal);
+  out.field("samples", static_cast<double>(render.samples));
+  out.field("seed", static_cast<double>(render.seed));
+  out.field("width", static_cast<double>(render.width));
+}
+
+void write_world(Writer& out, const WorldSpec& world) {
+  out.numbers("color", world.color);
+  if (!world.hdri.empty()) {
+    out.field("hdri", std::string_view(world.hdri));
+    out.matrix("map_from_camera", world.map_from_camera);
+  }
+  out.field("strength", world.strength);
 }
 
 Affine matrix_from_json(const Json& numbers) {
@@ -37,30 +198,6 @@ LightKind light_kind(const std::string& name) {
   return static_cast<LightKind>(found - kLightKinds.begin());
 }
 
-Json light_json(const LightSpec& light) {
-  Json json = {{"kind", kLightKinds[static_cast<std::size_t>(light.kind)]},
-               {"camera_from_light", matrix_json(light.camera_from_light)},
-               {"color", light.color},
-               {"power", light.power}};
-  switch (light.kind) {
-    case LightKind::kSpot:
-      json["blend"] = light.blend;
-      json["angle_rad"] = light.angle_rad;
-      [[fallthrough]];
-    case LightKind::kPoint:
-      json["radius_m"] = light.radius_m;
-      break;
-    case LightKind::kSun:
-      json["angle_rad"] = light.angle_rad;
-      break;
-    case LightKind::kArea:
-      json["width_m"] = light.width_m;
-      json["height_m"] = light.height_m;
-      break;
-  }
-  return json;
-}
-
 LightSpec light_from_json(const Json& json) {
   LightSpec light;
   light.kind = light_kind(json.at("kind").get<std::string>());
@@ -73,14 +210,6 @@ LightSpec light_from_json(const Json& json) {
   light.width_m = json.value("width_m", 0.0);
   light.height_m = json.value("height_m", 0.0);
   return light;
-}
-
-Json material_json(const MaterialSpec& material) {
-  return {{"base_color", material.base_color},     {"metallic", material.metallic},
-          {"roughness", material.roughness},       {"specular", material.specular},
-          {"transmission", material.transmission}, {"ior", material.ior},
-          {"clearcoat", material.clearcoat},       {"texture_repeat", material.texture_repeat},
-          {"textures", material.textures}};
 }
 
 MaterialSpec material_from_json(const Json& json) {
@@ -97,15 +226,6 @@ MaterialSpec material_from_json(const Json& json) {
   return material;
 }
 
-Json instance_json(const InstanceSpec& instance) {
-  return {{"name", instance.name},
-          {"id", instance.id},
-          {"category", instance.category},
-          {"mesh", instance.mesh},
-          {"materials", instance.materials},
-          {"camera_from_object", matrix_json(instance.camera_from_object)}};
-}
-
 InstanceSpec instance_from_json(const Json& json) {
   InstanceSpec instance;
   json.at("name").get_to(instance.name);
@@ -114,6 +234,14 @@ InstanceSpec instance_from_json(const Json& json) {
   json.at("mesh").get_to(instance.mesh);
   json.at("materials").get_to(instance.materials);
   instance.camera_from_object = matrix_from_json(json.at("camera_from_object"));
+  for (const Json& kind : json.at("hidden_from")) {
+    const auto name = kind.get<std::string>();
+    if (name == "camera") instance.hidden_from.camera = true;
+    if (name == "diffuse") instance.hidden_from.diffuse = true;
+    if (name == "glossy") instance.hidden_from.glossy = true;
+    if (name == "shadow") instance.hidden_from.shadow = true;
+    if (name == "transmission") instance.hidden_from.transmission = true;
+  }
   return instance;
 }
 
@@ -131,10 +259,22 @@ FrameSpec read(const Json& json) {
   render.at("normal").get_to(spec.render.normal);
   const Json& camera = json.at("camera");
   camera.at("focal_px").get_to(spec.camera.focal_px);
+  camera.at("center_px").get_to(spec.camera.center_px);
   camera.at("clip_start_m").get_to(spec.camera.clip_start_m);
   camera.at("clip_end_m").get_to(spec.camera.clip_end_m);
-  json.at("world").at("color").get_to(spec.world.color);
-  json.at("world").at("strength").get_to(spec.world.strength);
+  camera.at("aperture_radius_m").get_to(spec.camera.aperture_radius_m);
+  camera.at("focus_distance_m").get_to(spec.camera.focus_distance_m);
+  const Json& world = json.at("world");
+  world.at("color").get_to(spec.world.color);
+  world.at("strength").get_to(spec.world.strength);
+  spec.world.hdri = world.value("hdri", std::string());
+  if (!spec.world.hdri.empty()) {
+    const Json& numbers = world.at("map_from_camera");
+    for (std::size_t i = 0; i < 9; ++i) {
+      spec.world.map_from_camera(static_cast<int>(i / 3), static_cast<int>(i % 3)) =
+          numbers.at(i).get<double>();
+    }
+  }
   for (const Json& item : json.at("materials")) spec.materials.push_back(material_from_json(item));
   for (const Json& item : json.at("instances")) spec.instances.push_back(instance_from_json(item));
   for (const Json& item : json.at("lights")) spec.lights.push_back(light_from_json(item));
@@ -147,42 +287,34 @@ FrameSpec read(const Json& json) {
   return spec;
 }
 
-template <class T, class F>
-Json array_of(const std::vector<T>& items, F to_item) {
-  Json array = Json::array();
-  for (const T& item : items) array.push_back(to_item(item));
-  return array;
-}
-
 }  // namespace
 
-Json to_json(const FrameSpec& spec) {
-  return {{"version", kVersion},
-          {"render",
-           {{"width", spec.render.width},
-            {"height", spec.render.height},
-            {"samples", spec.render.samples},
-            {"seed", spec.render.seed},
-            {"max_bounces", spec.render.max_bounces},
-            {"filter_width_px", spec.render.filter_width_px},
-            {"clamp_indirect", spec.render.clamp_indirect},
-            {"depth", spec.render.depth},
-            {"normal", spec.render.normal}}},
-          {"camera",
-           {{"focal_px", spec.camera.focal_px},
-            {"clip_start_m", spec.camera.clip_start_m},
-            {"clip_end_m", spec.camera.clip_end_m}}},
-          {"world", {{"color", spec.world.color}, {"strength", spec.world.strength}}},
-          {"materials", array_of(spec.materials, material_json)},
-          {"instances", array_of(spec.instances, instance_json)},
-          {"lights", array_of(spec.lights, light_json)},
-          {"image",
-           {{"display", spec.image.display},
-            {"view", spec.image.view},
-            {"look", spec.image.look},
-            {"exposure_stops", spec.image.exposure_stops},
-            {"gamma", spec.image.gamma}}}};
+std::string canonical_text(const FrameSpec& spec) {
+  constexpr std::size_t kBytesPerItem = 600;
+  std::string text;
+  text.reserve((4 + spec.instances.size() + spec.materials.size() + spec.lights.size()) *
+               kBytesPerItem);
+  Writer out(text);
+  out.open('{');
+  const auto object = [&](std::string_view name, auto write, const auto& value) {
+    out.key(name);
+    out.open('{');
+    write(out, value);
+    out.close('}');
+  };
+  object("camera", write_camera, spec.camera);
+  object("image", write_image, spec.image);
+  out.list("instances", spec.instances, write_instance);
+  out.list("lights", spec.lights, write_light);
+  out.list("materials", spec.materials, write_material);
+  object("render", write_render, spec.render);
+  out.field("version", static_cast<double>(kVersion));
+  object("world", write_world, spec.world);
+  out.close('}');
+  return text;
 }
+
+Json to_json(const FrameSpec& spec) { return Json::parse(canonical_text(spec)); }
 
 Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what) {
   const Result<int> version = json_field<int>(json, "version", what);
@@ -199,6 +331,6 @@ Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what
   }
 }
 
-std::string frame_id(const FrameSpec& spec) { return sha256_hex(canonical_json(to_json(spec))); }
+std::string frame_id(const FrameSpec& spec) { return sha256_hex(canonical_text(spec)); }
 
 }  // namespace seedframe

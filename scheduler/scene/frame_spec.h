@@ -11,6 +11,7 @@
 
 #include "base/canonical_json.h"
 #include "base/error.h"
+#include "config/campaign_config.h"
 
 namespace seedframe {
 
@@ -32,11 +33,14 @@ struct RenderSettings {
   bool normal = false;          ///< ask for the Normal pass
 };
 
-/// A pinhole camera at the origin, looking down -z, y up; the principal point is the image centre.
+/// A camera at the origin, looking down -z, y up.
 struct CameraSpec {
-  double focal_px = 0.0;  ///< focal length in pixels, the same for x and y
+  std::array<double, 2> focal_px{};   ///< fx, fy
+  std::array<double, 2> center_px{};  ///< principal point cx, cy; pixel centres are whole numbers
   double clip_start_m = 0.0;
   double clip_end_m = 0.0;
+  double aperture_radius_m = 0.0;  ///< 0: a pinhole
+  double focus_distance_m = 0.0;   ///< along -z; of no meaning to a pinhole
 };
 
 /// Parameters of Blender's Principled BSDF. A texture is named by the SHA-256 of its file; a colour
@@ -61,6 +65,7 @@ struct InstanceSpec {
   int category = 0;  ///< index into the campaign's categories + 1; 0 for what has no label
   std::string mesh;  ///< SHA-256 of the mesh buffer
   std::vector<int> materials;  ///< for each material slot of the mesh an index into materials
+  HiddenFrom hidden_from;
   Affine camera_from_object = Affine::Identity();
 };
 
@@ -79,9 +84,13 @@ struct LightSpec {
   double height_m = 0.0;   ///< area
 };
 
+/// Light from everywhere: one colour, or an environment map (equirectangular, z up) multiplied by it.
 struct WorldSpec {
   Rgb color{};
   double strength = 0.0;
+  std::string hdri;  ///< SHA-256 of an image file, or empty
+  /// From directions in the camera's frame to those of the environment map; with hdri only.
+  Eigen::Matrix3d map_from_camera = Eigen::Matrix3d::Identity();
 };
 
 /// How image.png is made from the combined pass.
@@ -103,12 +112,14 @@ struct FrameSpec {
   ImageSettings image;
 };
 
+/// The canonical JSON, which is hashed and sent to workers.
+std::string canonical_text(const FrameSpec& spec);
 Json to_json(const FrameSpec& spec);
 /// Reads what to_json wrote; a newer version, a missing key or a wrong type is an error that names
 /// `what`.
 Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what);
 
-/// 64 hex digits.
+/// SHA-256 of the canonical text, 64 hex digits.
 std::string frame_id(const FrameSpec& spec);
 
 }  // namespace seedframe

@@ -25,10 +25,15 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
   return entries;
 }
 
-bool is_image(const fs::path& file) {
+std::string lower_case_ending(const fs::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+bool is_image(const fs::path& file) {
+  const std::string ending = lower_case_ending(file);
   return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
 }
 
@@ -88,6 +93,10 @@ Status MaterialLibrary::add_folder(const fs::path& folder) {
   }
   for (const fs::path& entry : sorted_entries(folder)) add_texture_set(entry);
   for (const fs::path& entry : sorted_entries(folder / "textures")) add_texture_set(entry);
+  for (const fs::path& entry : sorted_entries(folder / "hdri")) {
+    const std::string ending = lower_case_ending(entry);
+    if (ending == ".exr" || ending == ".hdr") hdris_.emplace(entry.stem().string(), entry);
+  }
   return {};
 }
 
@@ -104,6 +113,7 @@ void MaterialLibrary::add_texture_set(const fs::path& folder) {
 }
 
 std::vector<std::string> MaterialLibrary::material_names() const { return keys_of(materials_); }
+std::vector<std::string> MaterialLibrary::hdri_names() const { return keys_of(hdris_); }
 std::vector<std::string> MaterialLibrary::texture_set_names() const {
   return keys_of(texture_sets_);
 }

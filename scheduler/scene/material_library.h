@@ -32,6 +32,9 @@ class MaterialLibrary {
   const std::map<std::string, TextureSet>& texture_sets() const { return texture_sets_; }
   std::vector<std::string> material_names() const;
   std::vector<std::string> texture_set_names() const;
+  /// Environment maps, <folder>/hdri/<name>.exr or .hdr: name to file.
+  const std::map<std::string, std::filesystem::path>& hdris() const { return hdris_; }
+  std::vector<std::string> hdri_names() const;
 
  private:
   Status add_folder(const std::filesystem::path& folder);
@@ -39,6 +42,7 @@ class MaterialLibrary {
 
   std::map<std::string, MaterialConfig> materials_;
   std::map<std::string, TextureSet> texture_sets_;
+  std::map<std::string, std::filesystem::path> hdris_;
 };
 
 }  // namespace seedframe

@@ -9,7 +9,8 @@ namespace seedframe {
 
 using portable::radians;
 
-Eigen::Matrix3d rotation_and_scale(const Eigen::Vector3d& rotation_deg, double scale) {
+Eigen::Matrix3d rotation_and_scale(const Eigen::Vector3d& rotation_deg,
+                                   const Eigen::Vector3d& scale) {
   std::array<double, 3> c{};
   std::array<double, 3> s{};
   for (int i = 0; i < 3; ++i) {
@@ -30,7 +31,7 @@ Eigen::Matrix3d rotation_and_scale(const Eigen::Vector3d& rotation_deg, double s
   rx << 1, 0, 0, 0, c[0], -s[0], 0, s[0], c[0];
   ry << c[1], 0, s[1], 0, 1, 0, -s[1], 0, c[1];
   rz << c[2], -s[2], 0, s[2], c[2], 0, 0, 0, 1;
-  return rz * ry * rx * scale;
+  return rz * ry * rx * scale.asDiagonal();
 }
 
 Affine looking_at(const Eigen::Vector3d& position, const Eigen::Vector3d& target, double roll_deg) {

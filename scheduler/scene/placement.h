@@ -8,9 +8,10 @@
 
 namespace seedframe {
 
-/// Turned about x, then y, then z (Blender's XYZ Euler order), then scaled: R_z · R_y · R_x ·
-/// scale.
-Eigen::Matrix3d rotation_and_scale(const Eigen::Vector3d& rotation_deg, double scale);
+/// Scaled along the object's own axes, then turned about x, then y, then z (Blender's XYZ Euler
+/// order): R_z · R_y · R_x · diag(scale).
+Eigen::Matrix3d rotation_and_scale(const Eigen::Vector3d& rotation_deg,
+                                   const Eigen::Vector3d& scale);
 
 /// World from a frame that looks from `position` at `target` down its -z, with its y as near to up
 /// as can be; looking straight up or down, y points away (world y). Turned by roll_deg about the

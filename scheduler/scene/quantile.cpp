@@ -58,6 +58,25 @@ double integer(double u, double min, double max) {
   return std::min(min + std::floor(u * (max - min + 1.0)), max);
 }
 
+double poisson(double u, double mean) {
+  // The sum of P(k) = e^-m m^k / k!, term by term; long double holds e^-10000.
+  long double term = expl(-static_cast<long double>(mean));
+  long double sum = term;
+  double k = 0.0;
+  constexpr double kFarOut = 20000.0;  // rounding may keep the sum below u for ever
+  while (sum < u && k < kFarOut) {
+    k += 1.0;
+    term *= static_cast<long double>(mean) / k;
+    sum += term;
+  }
+  return k;
+}
+
+double empirical(double u, std::span<const double> samples) {
+  const auto index = static_cast<std::size_t>(u * static_cast<double>(samples.size()));
+  return samples[std::min(index, samples.size() - 1)];
+}
+
 std::size_t choice(double u, std::span<const double> weights) {
   assert(!weights.empty());
   double total = 0.0;

@@ -20,6 +20,10 @@ double truncated_normal(double u, double mean, double std, double min, double ma
 double log_uniform(double u, double min, double max);
 /// Whole numbers from min to max, both included, each as likely.
 double integer(double u, double min, double max);
+/// Whole numbers from 0; 0 <= mean <= 10000.
+double poisson(double u, double mean);
+/// One of the sorted samples (at least one), each as likely.
+double empirical(double u, std::span<const double> samples);
 /// An index into weights (>= 0, with a positive sum), as likely as its weight.
 std::size_t choice(double u, std::span<const double> weights);
 

@@ -22,6 +22,15 @@ std::vector<std::string> references(const VariableConfig& variable) {
     collect_references(*number, names);
     return names;
   }
+  if (const VectorSource* vector = std::get_if<VectorSource>(&variable.source)) {
+    for (const NumberSource& component : vector->components) collect_references(component, names);
+    if (vector->formula) collect_references(*vector->formula, names);
+    return names;
+  }
+  if (const ColorSource* color = std::get_if<ColorSource>(&variable.source)) {
+    for (const NumberSource& component : color->components) collect_references(component, names);
+    return names;
+  }
   for (const NameSource::Option& option : std::get<NameSource>(variable.source).options) {
     collect_references(option.weight, names);
     for (std::size_t open = option.text.find("${"); open != std::string::npos;
@@ -80,47 +89,151 @@ class Order {
   std::vector<std::size_t> sorted_;
 };
 
+
+/// "objects.bolts.variables.spin" is "objects.bolts.spin" in a graph, and "variables.scene.spread"
+/// is "spread".
+std::string graph_key(const std::string& prefix, const std::string& name) {
+  const std::string word = "variables.";
+  const std::size_t at = prefix.rfind(word);
+  return at == 0 ? name : prefix.substr(0, at) + name;
+}
+
+bool is_vector_formula(const NumberSource& source, const CompileScope& scope) {
+  const Formula* formula = std::get_if<Formula>(&source.value);
+  if (formula == nullptr) return false;
+  const Result<CompiledFormula> compiled = CompiledFormula::compile(formula->text, scope.symbols);
+  return compiled && compiled->type().type == ValueType::kVector;
+}
+
 }  // namespace
+
+VariableBlock::Variable VariableBlock::compile_variable(const VariableConfig& config,
+                                                        const std::string& prefix, Level level,
+                                                        const CompileScope& scope,
+                                                        Diagnostics& errors) {
+  const std::string name = prefix + config.name;
+  Variable variable;
+  variable.graph_key = graph_key(prefix, config.name);
+  variable.place = config.place;
+  variable.given = std::make_shared<GivenValues>();
+  if (const auto* text = std::get_if<NameSource>(&config.source)) {
+    variable.type.type = ValueType::kText;
+    variable.source = NameDraw::compile(*text, scope, name, level, errors);
+    return variable;
+  }
+  if (const auto* color = std::get_if<ColorSource>(&config.source)) {
+    variable.type.type = ValueType::kVector;
+    variable.source = ColorDraw::compile(*color, scope, name, level, errors);
+    return variable;
+  }
+  const auto* number = std::get_if<NumberSource>(&config.source);
+  if (number != nullptr && !is_vector_formula(*number, scope)) {
+    const NumberDraw draw = NumberDraw::compile_any(*number, scope, name, level, errors);
+    variable.type.dimension = draw.dimension();
+    variable.source = draw;
+    return variable;
+  }
+  VectorSource source;
+  if (number != nullptr) {
+    source.formula = *number;
+  } else {
+    source = std::get<VectorSource>(config.source);
+  }
+  const VectorDraw draw = VectorDraw::compile_any(source, scope, name, level, errors);
+  variable.type = {ValueType::kVector, draw.dimension()};
+  variable.source = draw;
+  return variable;
+}
 
 VariableBlock VariableBlock::compile(const std::vector<VariableConfig>& variables,
                                      const std::string& prefix, Level level, VariableValues& values,
                                      CompileScope& scope, Diagnostics& errors) {
   VariableBlock block;
-  std::vector<Variable> unordered(variables.size());
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    const VariableConfig& variable = variables[i];
-    if (scope.numbers.contains(variable.name) || scope.names.contains(variable.name)) {
+  block.per_copy_ = scope.copies;
+  struct Storage {
+    double* numbers = nullptr;
+    std::string* name = nullptr;
+  };
+  std::vector<Storage> storage;
+  for (const VariableConfig& variable : variables) {
+    if (scope.symbols.contains(variable.name) || variable.name == "pi") {
       errors.add(variable.place, "the name '" + variable.name + "' is taken by another variable");
     }
-    if (std::holds_alternative<NumberSource>(variable.source)) {
-      unordered[i].number = values.number();
-      scope.numbers[variable.name] = unordered[i].number;
-    } else {
-      unordered[i].name = values.name();
-      scope.names[variable.name] = unordered[i].name;
-    }
+    const bool is_name = std::holds_alternative<NameSource>(variable.source);
+    storage.push_back(is_name ? Storage{nullptr, values.name()}
+                              : Storage{values.numbers(), nullptr});
+    const FormulaType type{is_name ? ValueType::kText : ValueType::kNumber, {}};
+    scope.symbols[variable.name] = {type, storage.back().numbers, storage.back().name};
   }
   const Order order(variables, errors);
   for (const std::size_t i : order.sorted()) {
-    const std::string name = prefix + variables[i].name;
-    if (const NumberSource* number = std::get_if<NumberSource>(&variables[i].source)) {
-      unordered[i].source = NumberDraw::compile(*number, scope, name, level, errors);
-    } else {
-      unordered[i].source =
-          NameDraw::compile(std::get<NameSource>(variables[i].source), scope, name, level, errors);
-    }
-    block.variables_.push_back(unordered[i]);
+    Variable variable = compile_variable(variables[i], prefix, level, scope, errors);
+    // Only now its type is known; those that refer to it come later.
+    scope.symbols[variables[i].name].type = variable.type;
+    variable.numbers = storage[i].numbers;
+    variable.name = storage[i].name;
+    block.variables_.push_back(std::move(variable));
   }
   return block;
 }
 
+bool VariableBlock::take_given(const Variable& variable, EvaluationContext& context) {
+  const bool is_name = variable.name != nullptr;
+  const std::size_t count =
+      is_name ? variable.given->names.size() : variable.given->numbers.size();
+  if (count == 0) return false;
+  const std::size_t index = count == 1 ? 0 : context.ordinal;
+  if (index >= count) {
+    context.report(variable.place, fmt::format("the graph gives '{}' {} values, but there are more "
+                                               "copies",
+                                               variable.graph_key, count));
+  } else if (is_name) {
+    *variable.name = variable.given->names[index];
+  } else {
+    std::copy_n(variable.given->numbers[index].begin(), 3, variable.numbers);
+  }
+  return true;
+}
+
+void VariableBlock::evaluate(const Variable& variable, EvaluationContext& context) {
+  if (take_given(variable, context)) return;
+  if (const auto* number = std::get_if<NumberDraw>(&variable.source)) {
+    *variable.numbers = number->evaluate(context);
+  } else if (const auto* name = std::get_if<NameDraw>(&variable.source)) {
+    *variable.name = name->evaluate(context);
+  } else if (const auto* color = std::get_if<ColorDraw>(&variable.source)) {
+    const Rgb value = color->evaluate(context);
+    std::copy(value.begin(), value.end(), variable.numbers);
+  } else {
+    const Eigen::Vector3d value = std::get<VectorDraw>(variable.source).evaluate(context);
+    std::copy_n(value.data(), 3, variable.numbers);
+  }
+}
+
 void VariableBlock::evaluate(EvaluationContext& context) const {
   for (const Variable& variable : variables_) {
-    if (variable.number != nullptr) {
-      *variable.number = std::get<NumberDraw>(variable.source).evaluate(context);
+    evaluate(variable, context);
+    if (context.graph == nullptr) continue;
+    Json value;
+    if (variable.name != nullptr) {
+      value = *variable.name;
+    } else if (variable.type.type == ValueType::kVector) {
+      value = {variable.numbers[0], variable.numbers[1], variable.numbers[2]};
     } else {
-      *variable.name = std::get<NameDraw>(variable.source).evaluate(context);
+      value = *variable.numbers;
     }
+    Json& entry = (*context.graph)[variable.graph_key];
+    if (per_copy_) {
+      entry.push_back(std::move(value));
+    } else {
+      entry = std::move(value);
+    }
+  }
+}
+
+void VariableBlock::add_to(GraphVariables& graph_variables) const {
+  for (const Variable& variable : variables_) {
+    graph_variables[variable.graph_key] = {variable.type, per_copy_, variable.given.get()};
   }
 }
 

@@ -96,7 +96,7 @@ TEST(CampaignConfig, RefusesWhatIsNoScene) {
        "unknown pass 'dept' (did you mean 'depth'?)"},
       {"seedframe: 1\ncamera: {distance_m: 1}\nlights: {l: {type: pint, power: 1}}",
        "unknown type of light (did you mean 'point'?)"},
-      {"seedframe: 1\ncamera: {distance_m: 1}\nlights: {l: {}}", "the key 'power' is missing"},
+      {"seedframe: 1\ncamera: {distance_m: 1}\nlights: {l: {}}", "the key 'power' or 'lumens' is missing"},
       {"seedframe: 1\ncamera: {distance_m: 1}\nobjects: {o: {}}", "the key 'asset' is missing"},
       {"seedframe: 1\ncamera: {distance_m: 1}\nobjects: {1x: {asset: cube}}", "a name must be"},
       {"seedframe: 1\ncamera: {distance_m: 1}\nobjects: [a]", "expected a mapping"},

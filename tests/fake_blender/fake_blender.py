@@ -126,6 +126,7 @@ def rectangle(matrix, focal_px, width, height):
     x, y, z = matrix[3], matrix[7], -matrix[11]
     if z <= 0:
         return slice(0, 0), slice(0, 0), 0.0
+    focal_px = focal_px[0]
     column = (width - 1) / 2 + focal_px * x / z
     row = (height - 1) / 2 - focal_px * y / z
     half = 0.1 * focal_px / z

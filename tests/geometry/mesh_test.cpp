@@ -116,7 +116,7 @@ TEST(LowestPoint, OfNothingIsInfinitelyHigh) {
 }
 
 TEST(GroundPlane, FacesUpWithUvsInMetres) {
-  const Mesh plane = ground_plane(6.0, 4.0);
+  const Mesh plane = ground_surface(6.0, 4.0, 0.0);
   ASSERT_TRUE(check_mesh(plane, "ground"));
   EXPECT_DOUBLE_EQ(surface_area(plane), 24.0);
   EXPECT_EQ(bounding_box(plane).low, Eigen::Vector3d(-3.0, -2.0, 0.0));

@@ -124,7 +124,7 @@ class FakeBlenderTest(unittest.TestCase):
         sys.path.insert(0, str(SCRIPTS.parent / "tests" / "fake_blender"))
         import fake_blender
         spec = {"render": {"width": 8, "height": 6, "seed": 7, "depth": True, "normal": False},
-                "camera": {"focal_px": 10}, "world": {"color": [1, 1, 1], "strength": 0.5},
+                "camera": {"focal_px": [10, 10]}, "world": {"color": [1, 1, 1], "strength": 0.5},
                 "materials": [{"base_color": [1, 0, 0]}],
                 "instances": [{"id": 3, "materials": [0],
                                "camera_from_object": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1, 0, 0, 0, 1]}]}

@@ -28,7 +28,9 @@ TEST_F(PoolTest, RendersEveryFrameWithOneStartPerWorker) {
   EXPECT_EQ(summary->failed, 0);
   EXPECT_EQ(summary->left, 0);
   EXPECT_LE(summary->worker_starts, 2);
-  EXPECT_EQ(workers_started().size(), static_cast<std::size_t>(summary->worker_starts));
+  // The second may have been sent home before it came to life.
+  EXPECT_GE(workers_started().size(), 1U);
+  EXPECT_LE(workers_started().size(), static_cast<std::size_t>(summary->worker_starts));
   for (int frame = 0; frame < 20; ++frame) EXPECT_TRUE(client->judge({frame, 1}));
   expect_no_worker_lives();
 }

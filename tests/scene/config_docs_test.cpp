@@ -62,12 +62,17 @@ TEST(ConfigPage, ListsFunctionsThatExist) {
     }
     if (name != "pi" && name.find('(') == std::string::npos) name += "(x)";
     double x = 0.5;
-    const Scope scope = {{"x", &x}, {"y", &x}, {"a", &x}, {"b", &x}, {"low", &x}, {"high", &x}};
+    const std::array<double, 3> v = {1, 2, 3};
+    Scope scope;
+    for (const char* number : {"x", "y", "a", "b", "low", "high", "h", "s", "angle", "T"}) {
+      scope[number] = number_symbol(&x);
+    }
+    for (const char* vector : {"v", "w"}) scope[vector] = {{ValueType::kVector, {}}, v.data(), nullptr};
     const auto compiled = CompiledFormula::compile(name, scope);
     EXPECT_TRUE(compiled) << name;
     ++functions;
   }
-  EXPECT_EQ(functions, 23) << "22 functions and pi";
+  EXPECT_EQ(functions, 33) << "32 functions and pi";
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ std::string error_of(const std::string& text) {
 std::map<std::string, Json> draws_of(const std::string& text, std::int64_t frame) {
   auto expander = compile(text);
   EXPECT_TRUE(expander) << expander.error().message;
-  const auto expanded = expander->expand(frame, true);
+  const auto expanded = expander->expand(frame, {.draws = true});
   EXPECT_TRUE(expanded) << expanded.error().message;
   std::map<std::string, Json> draws;
   for (const Draw& draw : expanded->draws) draws[draw.name] = draw.value;
@@ -93,9 +93,9 @@ lights:
 )");
   ASSERT_TRUE(expander) << expander.error().message;
   EXPECT_EQ(expander->expand(0)->id,
-            "c17ce2b241006d248e5a05dcb3b1f65e0ea821293704c18adbafc69d5b43ac47");
+            "a34d8301c951d5ddf6bcbd83dcbec4ca5c8265f0f852afb35baee925d0546a4f");
   EXPECT_EQ(expander->expand(5)->id,
-            "26582d91f4c6bf59ee68e975fd3cfbe270d6a43104467ceb0b03354ce531f60f");
+            "862497215cb9644e6db8a96dc16694fd9ffdefbc5b6f3cde24328cd9b5bafeb8");
 }
 
 TEST(SceneExpander, FirstDrawsAreWhatTheyHaveAlwaysBeen) {
@@ -223,9 +223,9 @@ TEST(SceneExpander, FrameSpecsSurviveTheirJson) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(frame_id(*read), frame->id);
   Json newer = to_json(frame->spec);
-  newer["version"] = 2;
+  newer["version"] = 3;
   EXPECT_THAT(frame_spec_from_json(newer, "frame.json").error().message,
-              HasSubstr("frame.json is a frame spec of version 2"));
+              HasSubstr("frame.json is a frame spec of version 3"));
   Json damaged = to_json(frame->spec);
   damaged.erase("camera");
   EXPECT_FALSE(frame_spec_from_json(damaged, "frame.json"));
@@ -241,7 +241,7 @@ TEST(SceneExpander, TextureSetsAreMaterials) {
   ASSERT_TRUE(frame) << frame.error().message;
   EXPECT_EQ(frame->spec.instances[0].id, 0);
   EXPECT_GE(frame->spec.materials[0].textures.size(), 3u);
-  EXPECT_EQ(expander->textures().size(), frame->spec.materials[0].textures.size());
+  EXPECT_EQ(expander->image_files().size(), frame->spec.materials[0].textures.size());
 }
 
 TEST(SceneExpander, ImpossibleScenesAreErrorsThatNameTheKey) {
@@ -295,7 +295,7 @@ TEST(SceneExpander, AScatterThatCannotBeSatisfiedEnds) {
 }
 
 TEST(Placement, MultiplesOfARightAngleAreExact) {
-  const Eigen::Matrix3d turned = rotation_and_scale({90, 0, -180}, 1.0);
+  const Eigen::Matrix3d turned = rotation_and_scale({90, 0, -180}, {1, 1, 1});
   for (int i = 0; i < 9; ++i) {
     const double entry = turned(i / 3, i % 3);
     EXPECT_TRUE(entry == 0.0 || entry == 1.0 || entry == -1.0) << entry;

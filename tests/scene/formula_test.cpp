@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 double value_of(const std::string& text, const Scope& scope = {}) {
   const auto formula = CompiledFormula::compile(text, scope);
   EXPECT_TRUE(formula) << text << ": " << formula.error().message;
-  return formula ? formula->evaluate() : NAN;
+  return formula ? formula->number() : NAN;
 }
 
 std::string error_of(const std::string& text, const Scope& scope = {}) {
@@ -37,22 +37,22 @@ TEST(Formula, Computes) {
 
 TEST(Formula, ReadsVariablesWhenEvaluated) {
   double x = 2.0;
-  const auto formula = CompiledFormula::compile("x * x", {{"x", &x}});
+  const auto formula = CompiledFormula::compile("x * x", {{"x", number_symbol(&x)}});
   ASSERT_TRUE(formula);
-  EXPECT_DOUBLE_EQ(formula->evaluate(), 4.0);
+  EXPECT_DOUBLE_EQ(formula->number(), 4.0);
   x = 3.0;
-  EXPECT_DOUBLE_EQ(formula->evaluate(), 9.0);
+  EXPECT_DOUBLE_EQ(formula->number(), 9.0);
 }
 
 TEST(Formula, UnknownNamesGetASuggestion) {
   const double radius = 1.0;
-  EXPECT_THAT(error_of("2 * raduis", {{"radius", &radius}}), HasSubstr("did you mean 'radius'?"));
+  EXPECT_THAT(error_of("2 * raduis", {{"radius", number_symbol(&radius)}}), HasSubstr("did you mean 'radius'?"));
   EXPECT_THAT(error_of("sqr(2)"), HasSubstr("did you mean 'sqrt'?"));
 }
 
 TEST(Formula, RefusesWhatItDoesNotOffer) {
   double x = 1.0;
-  const Scope scope = {{"x", &x}};
+  const Scope scope = {{"x", number_symbol(&x)}};
   EXPECT_THAT(error_of("x ^ 2", scope), HasSubstr("pow(x, y)"));
   EXPECT_THAT(error_of("x = 5", scope), HasSubstr("=="));
   EXPECT_DOUBLE_EQ(x, 1.0);

@@ -122,16 +122,29 @@ class RealBlender : public testing::Test, public RenderClient {
     return name;
   }
 
+  static InstanceSpec instance(const std::string& name, int id, const std::string& mesh,
+                               const std::vector<int>& materials, const Affine& place) {
+    InstanceSpec spec;
+    spec.name = name;
+    spec.id = id;
+    spec.category = id == 0 ? 0 : 1;
+    spec.mesh = mesh;
+    spec.materials = materials;
+    spec.camera_from_object = place;
+    return spec;
+  }
+
   /// One white ball of radius 1 at 4 m, lit evenly by the world alone.
   FrameSpec ball() const {
     FrameSpec spec;
     spec.render = {48, 36, 4, 1, 2, 1.5, 0.0, true, false};
-    spec.camera = {60.0, 0.01, 100.0};
-    spec.world = {{1, 1, 1}, 1.0};
+    spec.camera = {{60.0, 60.0}, {23.5, 17.5}, 0.01, 100.0};
+    spec.world.color = {1, 1, 1};
+    spec.world.strength = 1.0;
     spec.materials.emplace_back();
     spec.materials[0].base_color = {0.8, 0.8, 0.8};
     spec.materials[0].specular = 0.0;
-    spec.instances = {{"ball/0", 5, 1, smooth, {0}, placed(0, 0, -4)}};
+    spec.instances = {instance("ball/0", 5, smooth, {0}, placed(0, 0, -4))};
     return spec;
   }
   /// Frames that differ in all that a worker could carry over from one to the next.
@@ -221,7 +234,19 @@ inline FrameSpec RealBlender::varied(std::int64_t frame) const {
   spec.render.clamp_indirect = pick(2) * 5.0;
   spec.render.depth = pick(2) == 1;
   spec.render.normal = pick(2) == 1;
-  spec.world = {{draw(0, 1), draw(0, 1), draw(0, 1)}, draw(0, 1)};
+  spec.camera.center_px[0] = 0.5 * (spec.render.width - 1) + draw(-4, 4);
+  spec.camera.focal_px[1] = draw(50, 70);
+  if (pick(2) == 1) {
+    spec.camera.aperture_radius_m = draw(0.01, 0.1);
+    spec.camera.focus_distance_m = draw(3, 5);
+  }
+  spec.world.color = {draw(0, 1), draw(0, 1), draw(0, 1)};
+  spec.world.strength = draw(0, 1);
+  if (pick(2) == 1) {
+    spec.world.hdri = textures.begin()->first;
+    spec.world.map_from_camera =
+        Eigen::AngleAxisd(draw(0, 3), Eigen::Vector3d::UnitX()).toRotationMatrix();
+  }
   spec.materials.assign(4, {});
   for (MaterialSpec& material : spec.materials) {
     material = {{draw(0, 1), draw(0, 1), draw(0, 1)},
@@ -245,13 +270,12 @@ inline FrameSpec RealBlender::varied(std::int64_t frame) const {
     const std::string mesh = std::array{smooth, flat, halves}[static_cast<std::size_t>(pick(3))];
     const std::vector<int> slots = {pick(4), pick(4)};
     const std::size_t used = mesh == halves ? 2 : 1;
-    spec.instances.push_back(
-        {fmt::format("thing/{}", i),
-         i,
-         1,
-         mesh,
-         {slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(used)},
-         placed(draw(-1.5, 1.5), draw(-1, 1), draw(-6, -3), draw(0.3, 1), draw(0, 3))});
+    spec.instances.push_back(instance(
+        fmt::format("thing/{}", i), i, mesh,
+        {slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(used)},
+        placed(draw(-1.5, 1.5), draw(-1, 1), draw(-6, -3), draw(0.3, 1), draw(0, 3))));
+    spec.instances.back().hidden_from.glossy = pick(2) == 1;
+    spec.instances.back().hidden_from.shadow = pick(2) == 1;
   }
   for (int i = pick(4); i > 0; --i) {
     LightSpec light;

@@ -15,9 +15,9 @@ float center(const FramePasses& picture, int channel) {
 
 TEST_F(RealBlender, TheCameraIsAPinholeAtTheOrigin) {
   FrameSpec spec = ball();
-  spec.instances = {{"right/0", 1, 1, smooth, {0}, placed(1.0, 0, -4, 0.1)},
-                    {"up/0", 2, 1, smooth, {0}, placed(0, 0.8, -4, 0.1)},
-                    {"background/0", 0, 0, smooth, {0}, placed(-1.0, 0, -4, 0.1)}};
+  spec.instances = {instance("right/0", 1, smooth, {0}, placed(1.0, 0, -4, 0.1)),
+                    instance("up/0", 2, smooth, {0}, placed(0, 0.8, -4, 0.1)),
+                    instance("background/0", 0, smooth, {0}, placed(-1.0, 0, -4, 0.1))};
   const FramePasses picture = render_one(spec);
   // Pixel centres are at integers, the principal point is ((W - 1) / 2, (H - 1) / 2).
   EXPECT_EQ(picture.instance_ids.at(18, 23 + 15), 1) << "x = 60 * 1 / 4 + 23.5 = 38.5";
@@ -114,7 +114,7 @@ TEST_F(RealBlender, EachSlotHasItsMaterial) {
   // Upright: the sphere's own z is up in the picture.
   Affine upright = placed(0, 0, -4);
   upright.rotate(Eigen::AngleAxisd(-std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
-  spec.instances = {{"ball/0", 1, 1, halves, {0, 1}, upright}};
+  spec.instances = {instance("ball/0", 1, halves, {0, 1}, upright)};
   const FramePasses picture = render_one(spec);
   EXPECT_GT(picture.combined.at(10, kMiddleColumn, 0), 0.3F);
   EXPECT_LT(picture.combined.at(10, kMiddleColumn, 2), 0.1F);
@@ -163,7 +163,7 @@ TEST_F(RealBlender, NormalsAreTheCamerasAndFlatFacetsAreFlat) {
 
 TEST_F(RealBlender, AShortFocalLengthIsRefusedNotClamped) {
   specs[0] = ball();
-  specs[0].camera.focal_px = 1.0;
+  specs[0].camera.focal_px = {1.0, 1.0};
   ASSERT_TRUE(render({0}, 1));
   EXPECT_THAT(failures[0], testing::HasSubstr("focal length"));
 }

@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/nearest_name.h"
+#include "config/scene_sections.h"
+
+namespace seedframe {
+namespace {
+
+MaterialConfig read_material(const std::string& name, const ConfigNode& node, Diagnostics& errors) {
+  MaterialConfig material;
+  material.name = name;
+  material.place = node.place();
+  SectionReader section(node, errors);
+  material.base_color = section.color("base_color", {0.8, 0.8, 0.8});
+  if (const auto textures = section.find("textures")) {
+    material.textures = read_name(*textures, errors);
+    if (!node.find("base_color")) {
+      for (NumberSource& c : material.base_color.components) c = number_constant(1.0);
+    }
+  }
+  material.metallic = section.number("metallic", 0.0);
+  material.roughness = section.number("roughness", 0.5);
+  material.specular = section.number("specular", 0.5);
+  material.transmission = section.number("transmission", 0.0);
+  material.ior = section.number("ior", 1.45);
+  material.clearcoat = section.number("clearcoat", 0.0);
+  material.texture_repeat = section.number("texture_repeat", 1.0);
+  section.refuse_other_keys();
+  return material;
+}
+
+ScatterConfig read_scatter(const ConfigNode& node, Diagnostics& errors) {
+  ScatterConfig scatter;
+  scatter.place = node.place();
+  SectionReader section(node, errors);
+  const auto range = [&](const char* key, std::array<NumberSource, 2>& ends) {
+    const auto found = section.require(key);
+    if (!found) return;
+    const auto items = found->items();
+    if (items.size() != 2) {
+      errors.add(found->place(), "expected [least, most], found " + found->description());
+      return;
+    }
+    for (std::size_t i = 0; i < 2; ++i) ends[i] = read_number(items[i], errors);
+  };
+  range("x", scatter.x);
+  range("y", scatter.y);
+  scatter.gap_m = section.number("gap_m", 0.0);
+  section.refuse_other_keys();
+  return scatter;
+}
+
+HiddenFrom read_hidden_from(SectionReader& section) {
+  static const std::vector<std::string> kNames = {"camera", "diffuse", "glossy", "transmission",
+                                                  "shadow"};
+  HiddenFrom hidden;
+  const std::array<bool*, 5> flags = {&hidden.camera, &hidden.diffuse, &hidden.glossy,
+                                      &hidden.transmission, &hidden.shadow};
+  for (const std::string& text : section.texts("hidden_from")) {
+    const auto found = std::find(kNames.begin(), kNames.end(), text);
+    if (found == kNames.end()) {
+      section.errors().add(section.node().find("hidden_from")->place(),
+                           "unknown kind of ray '" + text + "'" + did_you_mean(text, kNames));
+    } else {
+      *flags[static_cast<std::size_t>(found - kNames.begin())] = true;
+    }
+  }
+  return hidden;
+}
+
+/// One number for all axes, or one for each.
+VectorSource read_scale(SectionReader& section) {
+  const auto node = section.find("scale");
+  if (node && node->is_list()) return read_vector(*node, section.errors());
+  VectorSource scale;
+  const NumberSource number = node ? read_number(*node, section.errors()) : number_constant(1.0);
+  scale.components.fill(number);
+  return scale;
+}
+
+ObjectConfig read_object(const std::string& name, const ConfigNode& node, Diagnostics& errors) {
+  ObjectConfig object;
+  object.name = name;
+  object.place = node.place();
+  SectionReader section(node, errors);
+  object.variables = section.variables("variables");
+  object.redraw = section.redraw(Level::kScene);
+  object.grid = section.grid();
+  object.count = section.number("count", 1.0);
+  if (object.grid && node.find("count")) {
+    errors.add(node.find("count")->place(), "count and grid exclude each other");
+  }
+  if (const auto asset = section.find("asset")) object.asset = read_name(*asset, errors);
+  if (const auto category = section.find("category")) {
+    object.category = read_name(*category, errors);
+  }
+  object.material = section.material("material");
+  if (const auto slots = section.find("slots")) {
+    if (!slots->is_map() && !slots->is_null()) {
+      errors.add(slots->place(), "expected a mapping of material slots, found " +
+                                     slots->description());
+    }
+    for (const auto& [slot, source] : slots->entries()) {
+      object.slots.emplace(slot, read_material_source(source, errors));
+    }
+  }
+  object.scale = read_scale(section);
+  object.rotation_deg = section.vector("rotation_deg", {0, 0, 0});
+  object.position = section.vector("position", {0, 0, 0});
+  if (const auto scatter = section.find("scatter")) {
+    object.scatter = read_scatter(*scatter, errors);
+  }
+  object.rest_on_ground = section.flag("rest_on_ground", false);
+  object.hidden_from = read_hidden_from(section);
+  object.objects = read_objects(section);
+  if (!object.asset && object.objects.empty() && !node.find("objects")) {
+    errors.add(node.place(), "the key 'asset' is missing (only a group, with 'objects' of its own, "
+                             "needs none)");
+  }
+  if (object.scatter && object.grid) {
+    errors.add(node.find("grid")->place(), "scatter and grid exclude each other");
+  }
+  section.refuse_other_keys();
+  return object;
+}
+
+}  // namespace
+
+std::vector<MaterialConfig> read_materials(SectionReader& campaign) {
+  std::vector<MaterialConfig> materials;
+  const auto node = campaign.find("materials");
+  if (!node) return materials;
+  for (const auto& [name, body] : node->entries()) {
+    materials.push_back(read_material(name, body, campaign.errors()));
+  }
+  return materials;
+}
+
+std::vector<ObjectConfig> read_objects(SectionReader& section) {
+  return read_named(section, "objects", read_object);
+}
+
+}  // namespace seedframe

@@ -1,0 +1,99 @@
+#include "scene/camera_placer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/portable_math.h"
+#include "scene/placement.h"
+
+namespace seedframe {
+namespace {
+
+void set_intrinsics(const CompiledCamera& camera, const RenderSettings& render, CameraSpec& spec,
+                    EvaluationContext& context) {
+  if (camera.focal_px) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      spec.focal_px[i] = positive((*camera.focal_px)[i], "focal_px", context);
+    }
+  } else {
+    const double fov = within(*camera.fov_deg, 0.01, 179.0, "fov_deg", context);
+    spec.focal_px.fill(0.5 * render.width / portable::tan(0.5 * portable::radians(fov)));
+  }
+  // The sensor is 36 mm wide in Blender, and it clamps a lens below 1 mm without a word.
+  if (spec.focal_px[0] < render.width / 36.0) {
+    context.report(camera.fov_deg ? camera.fov_deg->place() : (*camera.focal_px)[0].place(),
+                   "the view is too wide: Blender's lenses reach 173.6 degrees (a focal length of "
+                   "1/36 of the image's width)");
+  }
+  spec.center_px = {0.5 * (render.width - 1), 0.5 * (render.height - 1)};
+  if (camera.center_px) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      spec.center_px[i] = (*camera.center_px)[i].evaluate(context);
+    }
+  }
+  spec.clip_start_m = positive(camera.clip_start_m, "clip_start_m", context);
+  spec.clip_end_m = at_least(camera.clip_end_m, spec.clip_start_m, true, "clip_end_m", context);
+}
+
+/// The lens behind an f-stop: its aperture is its focal length over the f-stop, and it is as long as
+/// the sensor's width asks for.
+void set_focus(const CompiledCamera& camera, const RenderSettings& render, double target_distance,
+               CameraSpec& spec, EvaluationContext& context) {
+  const double f_stop = not_negative(camera.f_stop, "f_stop", context);
+  if (f_stop == 0.0) return;
+  const double sensor_mm = positive(camera.sensor_width_mm, "sensor_width_mm", context);
+  const double focal_m = 0.001 * spec.focal_px[0] * sensor_mm / render.width;
+  spec.aperture_radius_m = 0.5 * focal_m / f_stop;
+  spec.focus_distance_m = camera.focus_distance_m
+                              ? positive(*camera.focus_distance_m, "focus_distance_m", context)
+                              : target_distance;
+}
+
+Eigen::Vector3d middle_of_objects(const FrameDraft& draft) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const PlacedInstance& instance : draft.placed) {
+    if (instance.spec.id != 0) sum += instance.centre;
+  }
+  return draft.objects > 0 ? Eigen::Vector3d(sum / draft.objects) : sum;
+}
+
+Affine parent_of(const CompiledConfig& config, const FrameDraft& draft,
+                 EvaluationContext& context) {
+  if (!config.camera.parent) return Affine::Identity();
+  const auto object = std::find_if(
+      config.objects.begin(), config.objects.end(),
+      [&](const CompiledObject& candidate) { return candidate.name == *config.camera.parent; });
+  const FrameDraft::Section& section = draft.sections[object->section];
+  if (section.copies == 0) {
+    context.report(config.camera.place, "the camera's parent '" + *config.camera.parent +
+                                            "' has no copies in this frame");
+  }
+  return section.world_from_first;
+}
+
+}  // namespace
+
+Affine place_camera(const CompiledConfig& config, FrameDraft& draft, EvaluationContext& context) {
+  const CompiledCamera& camera = config.camera;
+  camera.variables.evaluate(context);
+  set_intrinsics(camera, draft.spec.render, draft.spec.camera, context);
+  const Eigen::Vector3d target =
+      camera.target ? camera.target->evaluate(context) : middle_of_objects(draft);
+  Eigen::Vector3d position;
+  if (camera.position) {
+    position = camera.position->evaluate(context);
+  } else {
+    position = on_shell(target, positive(camera.distance_m, "distance_m", context),
+                        camera.azimuth_deg.evaluate(context),
+                        within(camera.elevation_deg, -90, 90, "elevation_deg", context));
+  }
+  set_focus(camera, draft.spec.render, (target - position).norm(), draft.spec.camera, context);
+  if (position == target) {
+    context.report(camera.place, "the camera stands where it looks: move position or target");
+    return Affine::Identity();
+  }
+  return parent_of(config, draft, context) *
+         looking_at(position, target, camera.roll_deg.evaluate(context));
+}
+
+}  // namespace seedframe

@@ -1,0 +1,159 @@
+#include "scene/constraints.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "geometry/mesh_buffer.h"
+
+namespace seedframe {
+namespace {
+
+constexpr std::size_t kRaysForShares = 4096;
+
+int price(ConstraintKind kind) {
+  switch (kind) {
+    case ConstraintKind::kDistance:
+      return 0;
+    case ConstraintKind::kInView:
+      return 1;
+    case ConstraintKind::kVisible:
+      return 2;
+    case ConstraintKind::kPixels:
+      return 3;
+    case ConstraintKind::kApart:
+      return 4;
+  }
+  return 5;
+}
+
+std::vector<std::size_t> selected(const CompiledConstraint& constraint, const FrameDraft& draft) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < draft.placed.size(); ++i) {
+    const PlacedInstance& instance = draft.placed[i];
+    const bool wanted = constraint.sections.empty() ||
+                        std::binary_search(constraint.sections.begin(), constraint.sections.end(),
+                                           instance.section);
+    if (instance.spec.id != 0 && wanted) indices.push_back(i);
+  }
+  return indices;
+}
+
+bool all_distant(const std::vector<const PlacedInstance*>& instances, double least_m) {
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if ((instances[i]->centre - instances[j]->centre).norm() < least_m) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+ConstraintChecker::ConstraintChecker(const std::vector<CompiledConstraint>& constraints)
+    : constraints_(constraints), cheapest_first_(constraints.size()) {
+  std::iota(cheapest_first_.begin(), cheapest_first_.end(), std::size_t{0});
+  std::stable_sort(cheapest_first_.begin(), cheapest_first_.end(), [&](std::size_t a, std::size_t b) {
+    return price(constraints[a].kind) < price(constraints[b].kind);
+  });
+  for (const CompiledConstraint& constraint : constraints) tallies_.push_back({constraint.name});
+}
+
+const CompiledConstraint* ConstraintChecker::first_unmet(const FrameDraft& draft,
+                                                         EvaluationContext& context) {
+  visibility_.reset();
+  for (const std::size_t i : cheapest_first_) {
+    ++tallies_[i].checked;
+    if (!is_met(constraints_[i], draft, context)) return &constraints_[i];
+    ++tallies_[i].met;
+  }
+  return nullptr;
+}
+
+bool ConstraintChecker::is_met(const CompiledConstraint& constraint, const FrameDraft& draft,
+                               EvaluationContext& context) {
+  const double least = constraint.at_least.evaluate(context);
+  const std::vector<std::size_t> indices = selected(constraint, draft);
+  std::vector<const PlacedInstance*> instances;
+  for (const std::size_t i : indices) instances.push_back(&draft.placed[i]);
+  switch (constraint.kind) {
+    case ConstraintKind::kDistance:
+      return all_distant(instances, least);
+    case ConstraintKind::kApart:
+      return all_apart(instances, least);
+    case ConstraintKind::kPixels: {
+      const auto pixels = static_cast<std::size_t>(draft.spec.render.width) *
+                          static_cast<std::size_t>(draft.spec.render.height);
+      return std::all_of(indices.begin(), indices.end(), [&](std::size_t i) {
+        return visibility(draft).count(i, 9 * pixels).visible >= least;
+      });
+    }
+    case ConstraintKind::kVisible:
+    case ConstraintKind::kInView:
+      return std::all_of(indices.begin(), indices.end(), [&](std::size_t i) {
+        const PixelCounts counts = visibility(draft).count(i, kRaysForShares);
+        const bool view = constraint.kind == ConstraintKind::kInView;
+        const double part = view ? counts.in_image : counts.visible;
+        const double whole = view ? counts.whole : counts.in_image;
+        return whole > 0.0 ? part >= least * whole : least <= 0.0;
+      });
+  }
+  return true;
+}
+
+bool ConstraintChecker::all_apart(const std::vector<const PlacedInstance*>& instances,
+                                  double gap_m) {
+  std::vector<SolidInstance> solids;
+  for (const PlacedInstance* instance : instances) {
+    solids.push_back({&solid_mesh(*instance->asset), instance->asset->box,
+                      instance->world_from_object});
+  }
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (nearer_than(solids[i], solids[j], gap_m)) return false;
+    }
+  }
+  return true;
+}
+
+VisibilityScene& ConstraintChecker::visibility(const FrameDraft& draft) {
+  if (visibility_) return *visibility_;
+  const CameraSpec& camera = draft.spec.camera;
+  const PixelCamera pixels{draft.spec.render.width, draft.spec.render.height,
+                           camera.focal_px,         camera.center_px,
+                           camera.clip_start_m,     camera.clip_end_m};
+  std::vector<RayInstance> instances;
+  for (const PlacedInstance& placed : draft.placed) {
+    RayInstance instance;
+    // The ground's box is not asked for: nobody counts its pixels.
+    if (placed.asset) instance.box = placed.asset->box;
+    instance.mesh = placed.asset ? ray_mesh(placed) : ground_mesh(draft, placed.spec.mesh);
+    instance.camera_from_object = placed.spec.camera_from_object;
+    instance.seen = !placed.spec.hidden_from.camera;
+    instances.push_back(std::move(instance));
+  }
+  visibility_ = std::make_unique<VisibilityScene>(pixels, std::move(instances));
+  return *visibility_;
+}
+
+std::shared_ptr<const RayMesh> ConstraintChecker::ray_mesh(const PlacedInstance& instance) {
+  auto& mesh = ray_meshes_[instance.spec.mesh];
+  if (!mesh) mesh = std::make_shared<const RayMesh>(instance.asset->mesh);
+  return mesh;
+}
+
+std::shared_ptr<const RayMesh> ConstraintChecker::ground_mesh(const FrameDraft& draft,
+                                                              const std::string& sha256) {
+  if (ground_sha256_ == sha256) return ground_mesh_;
+  const Result<Mesh> mesh = mesh_from_buffer(*draft.ground_buffer, "ground");
+  ground_mesh_ = std::make_shared<const RayMesh>(mesh.value_or(Mesh{}));
+  ground_sha256_ = sha256;
+  return ground_mesh_;
+}
+
+const SolidMesh& ConstraintChecker::solid_mesh(const Asset& asset) {
+  auto& mesh = solid_meshes_[asset.buffer_sha256];
+  if (!mesh) mesh = std::make_unique<SolidMesh>(asset.mesh);
+  return *mesh;
+}
+
+}  // namespace seedframe

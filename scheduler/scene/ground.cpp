@@ -1,0 +1,29 @@
+#include "scene/ground.h"
+
+#include "base/sha256.h"
+#include "geometry/mesh_buffer.h"
+#include "geometry/primitives.h"
+
+namespace seedframe {
+
+void GroundMaker::add(const CompiledGround& ground, MaterialPicker& materials, FrameDraft& draft,
+                      EvaluationContext& context) {
+  const std::array<double, 3> shape = {positive(ground.width_m, "the ground's width_m", context),
+                                       positive(ground.depth_m, "the ground's depth_m", context),
+                                       ground.curvature_per_m.evaluate(context)};
+  if (shape != shape_) {
+    buffer_ = std::make_shared<const std::string>(
+        mesh_buffer(ground_surface(shape[0], shape[1], shape[2])));
+    sha256_ = sha256_hex(*buffer_);
+    shape_ = shape;
+  }
+  draft.ground_curvature_per_m = shape[2];
+  draft.ground_buffer = buffer_;
+  PlacedInstance instance;
+  instance.spec.name = "ground";
+  instance.spec.mesh = sha256_;
+  instance.spec.materials = {materials.add(ground.materials, draft.spec, context)};
+  draft.placed.push_back(std::move(instance));
+}
+
+}  // namespace seedframe

@@ -1,0 +1,98 @@
+#include "scene/material_picker.h"
+
+#include <algorithm>
+
+#include "base/nearest_name.h"
+#include "base/sha256.h"
+#include "scene/frame_draft.h"
+
+namespace seedframe {
+
+std::string MaterialPicker::draw_name_of(const CompiledMaterials& materials,
+                                         EvaluationContext& context) const {
+  if (const auto* name = std::get_if<NameDraw>(&materials.choice)) return name->evaluate(context);
+  const auto& choice = std::get<CompiledShare>(materials.choice);
+  const double share = within(choice.realistic_share, 0, 1, "realistic_share", context);
+  // One uniform decides both the kind and the material: what is left of it within its kind is
+  // again uniform.
+  const double u = choice.stream.uniform(context.position(choice.level));
+  const bool realistic = u < share;
+  const std::vector<std::string>& names = realistic ? choice.realistic : choice.parametric;
+  if (names.empty()) {
+    context.report(materials.place, fmt::format("there are no {} materials to choose from",
+                                                realistic ? "realistic" : "parametric"));
+    return "default";
+  }
+  const double rest = realistic ? u / share : (u - share) / (1.0 - share);
+  const auto index = static_cast<std::size_t>(rest * static_cast<double>(names.size()));
+  const std::string& name = names[std::min(index, names.size() - 1)];
+  if (context.record != nullptr) {
+    context.record->push_back({draw_name(materials.key, context), name});
+  }
+  return name;
+}
+
+int MaterialPicker::add(const CompiledMaterials& materials, FrameSpec& spec,
+                        EvaluationContext& context) {
+  const std::string name = draw_name_of(materials, context);
+  const auto found = materials.by_name.find(name);
+  if (found == materials.by_name.end()) {
+    context.report(materials.place, "there is no material '" + name + "'" +
+                                        did_you_mean(name, library_.material_names()));
+    return 0;
+  }
+  const CompiledMaterial& source = found->second;
+  MaterialSpec material;
+  material.base_color = source.base_color.evaluate(context);
+  material.metallic = within(source.metallic, 0, 1, "metallic", context);
+  material.roughness = within(source.roughness, 0, 1, "roughness", context);
+  material.specular = within(source.specular, 0, 1, "specular", context);
+  material.transmission = within(source.transmission, 0, 1, "transmission", context);
+  material.ior = within(source.ior, 1, 5, "ior", context);
+  material.clearcoat = within(source.clearcoat, 0, 1, "clearcoat", context);
+  material.texture_repeat = positive(source.texture_repeat, "texture_repeat", context);
+  if (source.textures) {
+    add_textures(source.textures->evaluate(context), source.textures->place(), material, context);
+  }
+  const auto same = std::find(spec.materials.begin(), spec.materials.end(), material);
+  if (same != spec.materials.end()) return static_cast<int>(same - spec.materials.begin());
+  spec.materials.push_back(std::move(material));
+  return static_cast<int>(spec.materials.size()) - 1;
+}
+
+void MaterialPicker::add_textures(const std::string& set, const Place& place,
+                                  MaterialSpec& material, EvaluationContext& context) {
+  const auto found = library_.texture_sets().find(set);
+  if (found == library_.texture_sets().end()) {
+    context.report(place, "there is no texture set '" + set + "'" +
+                              did_you_mean(set, library_.texture_set_names()));
+    return;
+  }
+  for (const auto& [role, file] : found->second.files) {
+    material.textures[role] = hash_of(file, place, context);
+  }
+}
+
+std::string MaterialPicker::hdri(const NameDraw& draw, EvaluationContext& context) {
+  const std::string name = draw.evaluate(context);
+  const auto found = library_.hdris().find(name);
+  if (found != library_.hdris().end()) return hash_of(found->second, draw.place(), context);
+  context.report(draw.place(), "there is no environment map '" + name + "'" +
+                                   did_you_mean(name, library_.hdri_names()));
+  return "";
+}
+
+std::string MaterialPicker::hash_of(const std::filesystem::path& file, const Place& place,
+                                    EvaluationContext& context) {
+  const auto known = hashes_.find(file);
+  if (known != hashes_.end()) return known->second;
+  const Result<std::string> computed = sha256_of_file(file);
+  if (!computed) {
+    context.report(place, computed.error().message);
+    return "";
+  }
+  files_.try_emplace(*computed, file);
+  return hashes_.emplace(file, *computed).first->second;
+}
+
+}  // namespace seedframe

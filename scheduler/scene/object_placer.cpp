@@ -1,0 +1,237 @@
+#include "scene/object_placer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/nearest_name.h"
+#include "scene/grid.h"
+
+namespace seedframe {
+namespace {
+
+constexpr std::uint32_t kPlacementAttempts = 1000;
+constexpr std::uint32_t kMostCopiesInGroup = 1024;
+
+/// Draws a free place for a circle; x and y of `position` become its middle.
+void scatter(const CompiledScatter& scatter, double radius,
+             const std::vector<Footprint>& footprints, Eigen::Vector3d& position,
+             EvaluationContext& context) {
+  const double gap = not_negative(scatter.gap_m, "gap_m", context);
+  const std::array<double, 2> x = {scatter.x[0].evaluate(context), scatter.x[1].evaluate(context)};
+  const std::array<double, 2> y = {scatter.y[0].evaluate(context), scatter.y[1].evaluate(context)};
+  if (x[0] > x[1] || y[0] > y[1]) {
+    context.report(scatter.place, "x and y want [least, most] with least <= most");
+    return;
+  }
+  auto* const record = std::exchange(context.record, nullptr);  // rejected draws would confuse
+  const auto draw = [&] {
+    position.x() = x[0] + (x[1] - x[0]) * scatter.x_draw.evaluate(context);
+    position.y() = y[0] + (y[1] - y[0]) * scatter.y_draw.evaluate(context);
+  };
+  bool found = false;
+  while (!found && context.placement_attempt < kPlacementAttempts) {
+    draw();
+    found = is_clear({position.x(), position.y(), radius}, footprints, gap);
+    if (!found) ++context.placement_attempt;
+  }
+  context.record = record;
+  if (found && record != nullptr) draw();
+  context.placement_attempt = 0;
+  if (!found) {
+    context.report(scatter.place,
+                   fmt::format("no free place was found in {} attempts: enlarge x and y, or lower "
+                               "count, scale or gap_m",
+                               kPlacementAttempts));
+  }
+}
+
+/// The number of a copy for its draws: unlike that of any other copy in the frame.
+std::uint32_t copy_for_draws(std::uint32_t parent, std::uint32_t copy, const Place& place,
+                             EvaluationContext& context) {
+  if (parent == kNoIndex) return copy;
+  if (parent >= kNoIndex / kMostCopiesInGroup || copy >= kMostCopiesInGroup) {
+    context.report(place, fmt::format("a group may hold {} copies of an object, and groups in "
+                                      "groups fewer than {} in all",
+                                      kMostCopiesInGroup, kNoIndex / kMostCopiesInGroup));
+    return 0;
+  }
+  return parent * kMostCopiesInGroup + copy;
+}
+
+}  // namespace
+
+void ObjectPlacer::check_names(const CompiledObject& object, Diagnostics& errors) const {
+  for (const CompiledObject& child : object.objects) check_names(child, errors);
+  if (!object.asset) return;
+  const auto names = object.asset->possible_values();
+  std::vector<std::string> slots;
+  for (const std::string& name : names.value_or(std::vector<std::string>())) {
+    const auto asset = assets_.load(name);
+    if (!asset) {
+      errors.add(object.asset->place(), asset.error().message);
+    } else {
+      slots.insert(slots.end(), (*asset)->mesh.slot_names.begin(), (*asset)->mesh.slot_names.end());
+    }
+  }
+  for (const auto& entry : object.slots) {
+    if (!names || std::find(slots.begin(), slots.end(), entry.first) != slots.end()) continue;
+    errors.add(entry.second.place, "no asset of '" + object.name + "' has a material slot '" +
+                                       entry.first + "'" + did_you_mean(entry.first, slots));
+  }
+  if (!object.category) return;
+  for (const std::string& name :
+       object.category->possible_values().value_or(std::vector<std::string>())) {
+    if (name == "none" ||
+        std::find(categories_.begin(), categories_.end(), name) != categories_.end()) {
+      continue;
+    }
+    errors.add(object.category->place(), "'" + name + "' is not among the campaign's categories" +
+                                             did_you_mean(name, categories_));
+  }
+}
+
+void ObjectPlacer::place_all(const CompiledConfig& config, MaterialPicker& materials,
+                             FrameDraft& draft, EvaluationContext& context) {
+  draft.sections.assign(config.sections, {});
+  Pass pass{config.built_in, materials, draft, context};
+  Parent world;
+  for (const CompiledObject& object : config.objects) {
+    place(object, world, pass);
+    if (context.error) break;
+  }
+  context.copy = kNoIndex;
+}
+
+void ObjectPlacer::place(const CompiledObject& object, Parent& parent, Pass& pass) {
+  EvaluationContext& context = pass.context;
+  context.copy = parent.copy;
+  const auto most = static_cast<std::uint32_t>(kLargestInstanceId);
+  const Grid grid = object.grid ? evaluate_grid(*object.grid, most, context) : Grid();
+  const std::uint32_t copies =
+      object.grid ? grid.size() : copies_of(object.count, most, context);
+  for (std::uint32_t copy = 0; copy < copies && !context.error; ++copy) {
+    context.copy = copy_for_draws(parent.copy, copy, object.place, context);
+    context.ordinal = pass.draft.sections[object.section].copies;
+    *pass.built_in.copies = copies;
+    *pass.built_in.copy_index = copy;
+    place_copy(object, grid.offset(copy), fmt::format("{}{}/{}", parent.name, object.name, copy),
+               parent, pass);
+  }
+}
+
+void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3d& offset,
+                              const std::string& name, Parent& parent, Pass& pass) {
+  EvaluationContext& context = pass.context;
+  object.variables.evaluate(context);
+  std::shared_ptr<const Asset> asset;
+  if (object.asset) {
+    asset = load_asset(object.asset->evaluate(context), object.asset->place(), context);
+    if (!asset) return;
+  }
+  const Eigen::Vector3d rotation = object.rotation_deg.evaluate(context);
+  const Eigen::Vector3d scale = object.scale.evaluate(context);
+  if (scale.minCoeff() <= 0.0) {
+    context.report(object.scale.place(),
+                   fmt::format("scale must be above 0, found {}", scale.minCoeff()));
+    return;
+  }
+  const Eigen::Matrix3d linear = rotation_and_scale(rotation, scale);
+  Eigen::Vector3d position = object.position.evaluate(context) + offset;
+  const double radius =
+      asset ? footprint_radius(asset->box.low, asset->box.high, linear) : 0.0;
+  if (object.scatter) scatter(*object.scatter, radius, parent.footprints, position, context);
+  if (asset) parent.footprints.push_back({position.x(), position.y(), radius});
+  if (object.rest_on_ground) {
+    if (asset) position.z() -= asset->lowest_z(linear);
+    if (parent.copy == kNoIndex) {
+      position.z() += 0.5 * pass.draft.ground_curvature_per_m *
+                      (position.x() * position.x() + position.y() * position.y());
+    }
+  }
+  Affine parent_from_object = Affine::Identity();
+  parent_from_object.linear() = linear;
+  parent_from_object.translation() = position;
+  const Affine world_from_object = parent.world_from_parent * parent_from_object;
+
+  FrameDraft::Section& section = pass.draft.sections[object.section];
+  if (section.copies++ == 0) {
+    parent_from_object.linear() = rotation_and_scale(rotation, Eigen::Vector3d::Ones());
+    section.world_from_first = parent.world_from_parent * parent_from_object;
+  }
+  if (asset) place_instance(object, asset, name, world_from_object, pass);
+  if (object.objects.empty()) return;
+  Parent group{world_from_object, context.copy, name + "/", {}};
+  for (const CompiledObject& child : object.objects) {
+    if (!context.error) place(child, group, pass);
+  }
+}
+
+void ObjectPlacer::place_instance(const CompiledObject& object,
+                                  const std::shared_ptr<const Asset>& asset,
+                                  const std::string& name, const Affine& world_from_object,
+                                  Pass& pass) {
+  PlacedInstance instance;
+  instance.spec.name = name;
+  instance.spec.id = ++pass.draft.objects;
+  if (instance.spec.id > kLargestInstanceId) {
+    pass.context.report(object.place,
+                        fmt::format("a frame can hold at most {} objects", kLargestInstanceId));
+  }
+  instance.spec.category = category_index(object, *asset, pass.context);
+  instance.spec.mesh = asset->buffer_sha256;
+  instance.spec.materials = slot_materials(object, *asset, pass);
+  instance.spec.hidden_from = object.hidden_from;
+  instance.world_from_object = world_from_object;
+  instance.centre = world_from_object * asset->box.centre();
+  instance.section = object.section;
+  instance.asset = asset;
+  pass.draft.placed.push_back(std::move(instance));
+}
+
+std::vector<int> ObjectPlacer::slot_materials(const CompiledObject& object, const Asset& asset,
+                                              Pass& pass) {
+  std::vector<int> materials;
+  int common = -1;  // drawn only if a slot needs it
+  for (const std::string& slot : asset.mesh.slot_names) {
+    const auto own = object.slots.find(slot);
+    if (own != object.slots.end()) {
+      materials.push_back(pass.materials.add(own->second, pass.draft.spec, pass.context));
+      continue;
+    }
+    if (common < 0) common = pass.materials.add(object.materials, pass.draft.spec, pass.context);
+    materials.push_back(common);
+  }
+  return materials;
+}
+
+int ObjectPlacer::category_index(const CompiledObject& object, const Asset& asset,
+                                 EvaluationContext& context) const {
+  const std::string name = object.category ? object.category->evaluate(context) : asset.category;
+  if (name.empty() || name == "none") return 0;
+  const auto found = std::find(categories_.begin(), categories_.end(), name);
+  if (found == categories_.end()) {
+    context.report(object.category ? object.category->place() : object.place,
+                   fmt::format("the category '{}' of asset '{}' is not among the campaign's "
+                               "categories; add it there, or set category: none",
+                               name, asset.name));
+    return 0;
+  }
+  return static_cast<int>(found - categories_.begin()) + 1;
+}
+
+std::shared_ptr<const Asset> ObjectPlacer::load_asset(const std::string& name, const Place& place,
+                                                      EvaluationContext& context) {
+  const auto known = loaded_.find(name);
+  if (known != loaded_.end()) return known->second;
+  auto asset = assets_.load(name);
+  if (!asset) {
+    context.report(place, asset.error().message);
+    return nullptr;
+  }
+  asset_hashes_.try_emplace(name, (*asset)->mesh_sha256);
+  // Shares the asset's bytes instead of copying them.
+  mesh_buffers_.try_emplace((*asset)->buffer_sha256, *asset, &(*asset)->buffer);
+  return loaded_.emplace(name, *asset).first->second;
+}
+
+}  // namespace seedframe

@@ -1,0 +1,68 @@
+// Puts the objects of a config into the world.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/compiled_config.h"
+#include "scene/frame_draft.h"
+#include "scene/material_picker.h"
+#include "scene/placement.h"
+
+namespace seedframe {
+
+class ObjectPlacer {
+ public:
+  ObjectPlacer(AssetLibrary assets, std::vector<std::string> categories)
+      : assets_(std::move(assets)), categories_(std::move(categories)) {}
+
+  /// Loads what can be known without a draw; unknown assets, categories and slots are errors.
+  void check_names(const CompiledObject& object, Diagnostics& errors) const;
+
+  /// Adds all copies of all objects, parents before what is in them.
+  void place_all(const CompiledConfig& config, MaterialPicker& materials, FrameDraft& draft,
+                 EvaluationContext& context);
+
+  /// Mesh buffers of all frames so far, by SHA-256; without those of grounds.
+  const std::map<std::string, std::shared_ptr<const std::string>>& mesh_buffers() const {
+    return mesh_buffers_;
+  }
+  /// Assets used so far: name to SHA-256 of its file, for provenance.
+  const std::map<std::string, std::string>& asset_hashes() const { return asset_hashes_; }
+
+ private:
+  /// What a copy stands in: the world, or a copy of a group.
+  struct Parent {
+    Affine world_from_parent = Affine::Identity();
+    std::uint32_t copy = kNoIndex;  ///< as draws know it
+    std::string name;               ///< "row/1/", before the names of what is in it
+    std::vector<Footprint> footprints;
+  };
+  struct Pass {  // what one frame's placing carries around
+    const BuiltInValues& built_in;
+    MaterialPicker& materials;
+    FrameDraft& draft;
+    EvaluationContext& context;
+  };
+
+  void place(const CompiledObject& object, Parent& parent, Pass& pass);
+  void place_copy(const CompiledObject& object, const Eigen::Vector3d& offset,
+                  const std::string& name, Parent& parent, Pass& pass);
+  void place_instance(const CompiledObject& object, const std::shared_ptr<const Asset>& asset,
+                      const std::string& name, const Affine& world_from_object, Pass& pass);
+  std::vector<int> slot_materials(const CompiledObject& object, const Asset& asset, Pass& pass);
+  int category_index(const CompiledObject& object, const Asset& asset,
+                     EvaluationContext& context) const;
+  std::shared_ptr<const Asset> load_asset(const std::string& name, const Place& place,
+                                          EvaluationContext& context);
+
+  AssetLibrary assets_;
+  std::vector<std::string> categories_;
+  std::map<std::string, std::shared_ptr<const Asset>> loaded_;
+  std::map<std::string, std::shared_ptr<const std::string>> mesh_buffers_;
+  std::map<std::string, std::string> asset_hashes_;
+};
+
+}  // namespace seedframe
