@@ -1,9 +1,11 @@
 #include "config/config_node.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <string_view>
 
+#include "base/files.h"
 #include "base/nearest_name.h"
 
 namespace seedframe {
@@ -86,8 +88,13 @@ std::vector<std::string> split_path(const std::string& path) {
   return keys;
 }
 
+std::string origin_of(const Override& change) {
+  return change.origin.line > 0 ? change.origin.text()
+                                : "--set " + change.path + "=" + change.value;
+}
+
 Status apply(const YAML::Node& root, const Override& change) {
-  const std::string where = "--set " + change.path + "=" + change.value;
+  const std::string where = origin_of(change);
   Result<YAML::Node> value = load(change.value, where);
   if (!value) return forward_error(value);
   const std::vector<std::string> keys = split_path(change.path);
@@ -112,6 +119,43 @@ Status apply(const YAML::Node& root, const Override& change) {
   return {};
 }
 
+constexpr int kMostBases = 8;
+
+/// The config that `root`'s key `base` names, and in `overrides`, before what is there already, what
+/// `root` replaces in it.
+Result<std::string> read_base(const YAML::Node& root, const std::string& file,
+                              std::filesystem::path& base_file, std::vector<Override>& overrides) {
+  const auto fault = [&](const YAML::Node& node, const std::string& key,
+                         const std::string& message) {
+    return fail(ErrorKind::kInput, "{}: {}", yaml_place(file, node.Mark(), key).text(), message);
+  };
+  std::vector<Override> own;
+  const auto replace = [&](const std::string& path, const YAML::Node& value) {
+    own.push_back({path, YAML::Dump(value), yaml_place(file, value.Mark(), path)});
+  };
+  for (const auto& entry : root) {
+    const std::string& key = entry.first.Scalar();
+    if (key == "seedframe" || key == "name" || key == "description") {
+      replace(key, entry.second);
+    } else if (key == "set" && entry.second.IsMap()) {
+      for (const auto& change : entry.second) replace(change.first.Scalar(), change.second);
+    } else if (key != "base") {
+      return fault(entry.second, key,
+                   "a config with a base has only seedframe, base, name, description and set, which "
+                   "is a mapping of path: value");
+    }
+  }
+  const YAML::Node base = root["base"];
+  if (!base.IsScalar()) return fault(base, "base", "expected the path of a config");
+  base_file = std::filesystem::path(file).parent_path() / base.Scalar();
+  Result<std::string> text = read_file(base_file);
+  if (!text) {
+    return fault(base, "base", text.error().message + " (paths start at the config's folder)");
+  }
+  overrides.insert(overrides.begin(), own.begin(), own.end());
+  return text;
+}
+
 }  // namespace
 
 Result<Override> parse_override(const std::string& text) {
@@ -125,11 +169,26 @@ Result<Override> parse_override(const std::string& text) {
 
 Result<ConfigNode> ConfigNode::parse(const std::string& text, const std::string& file,
                                      const std::vector<Override>& overrides) {
+  return parse(text, file, overrides, 0);
+}
+
+Result<ConfigNode> ConfigNode::parse(const std::string& text, const std::string& file,
+                                     std::vector<Override> overrides, int bases) {
   Result<YAML::Node> root = load(text, file);
   if (!root) return forward_error(root);
   Diagnostics errors;
   TreeCheck(file, errors).walk(*root, "", 0);
   if (!errors.empty()) return tl::unexpected(errors.as_error());
+  if (root->IsMap() && (*root)["base"].IsDefined()) {
+    if (bases == kMostBases) {
+      return fail(ErrorKind::kInput, "{}: more than {} configs stand on each other by 'base'", file,
+                  kMostBases);
+    }
+    std::filesystem::path base_file;
+    const Result<std::string> base = read_base(*root, file, base_file, overrides);
+    if (!base) return forward_error(base);
+    return parse(*base, base_file.string(), std::move(overrides), bases + 1);
+  }
   try {
     for (const Override& change : overrides) {
       if (Status applied = apply(*root, change); !applied) return forward_error(applied);
@@ -183,10 +242,16 @@ std::vector<ConfigNode> ConfigNode::items() const {
 }
 
 Place ConfigNode::place() const {
-  for (const Override& change : source_->overrides) {
+  // The last one that set it counts.
+  for (auto it = source_->overrides.rbegin(); it != source_->overrides.rend(); ++it) {
+    const Override& change = *it;
     const bool inside = path_ == change.path || path_.starts_with(change.path + ".") ||
                         path_.starts_with(change.path + "[");
-    if (inside) return {"--set " + change.path + "=" + change.value, 0, 0, path_};
+    if (!inside) continue;
+    if (change.origin.line == 0) return {origin_of(change), 0, 0, path_};
+    Place place = change.origin;
+    place.path = path_;
+    return place;
   }
   return yaml_place(source_->file, node_.Mark(), path_);
 }

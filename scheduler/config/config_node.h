@@ -18,6 +18,8 @@ namespace seedframe {
 struct Override {
   std::string path;
   std::string value;
+  /// Where it was written, when that was a config's `set`; empty for the command line.
+  Place origin = {};
 };
 
 /// Splits "path=value"; without '=' or with an empty path it is a kInput error.
@@ -25,7 +27,9 @@ Result<Override> parse_override(const std::string& text);
 
 class ConfigNode {
  public:
-  /// Parses a YAML document and applies the overrides. Errors: not YAML (with line and column),
+  /// Parses a YAML document and applies the overrides. A document with the key `base` is another
+  /// config with some values replaced: that file is read (`base` starts at this file's folder), and
+  /// what stands below `set` is applied as overrides. Errors: not YAML (with line and column),
   /// keys that stand twice, more than a million nodes (as alias bombs have), an override through a
   /// value that has no keys.
   static Result<ConfigNode> parse(const std::string& text, const std::string& file,
@@ -54,6 +58,8 @@ class ConfigNode {
   void refuse_unknown_keys(const std::vector<std::string>& known, Diagnostics& errors) const;
 
  private:
+  static Result<ConfigNode> parse(const std::string& text, const std::string& file,
+                                  std::vector<Override> overrides, int bases);
   struct Source {
     std::string file;
     std::vector<Override> overrides;
