@@ -1,5 +1,6 @@
 #include "scene/dimension.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "base/portable_math.h"
@@ -22,12 +23,15 @@ const std::array<Unit, 9>& units() {
   return list;
 }
 
+/// Stays at the ends of its range: coming round to 0 would make a plain number of a power of metres.
+std::int8_t exponent(int value) { return static_cast<std::int8_t>(std::clamp(value, -127, 127)); }
+
 }  // namespace
 
 Dimension Dimension::operator*(const Dimension& other) const {
   Dimension result;
   for (std::size_t i = 0; i < exponents.size(); ++i) {
-    result.exponents[i] = static_cast<std::int8_t>(exponents[i] + other.exponents[i]);
+    result.exponents[i] = exponent(exponents[i] + other.exponents[i]);
   }
   return result;
 }
@@ -35,7 +39,7 @@ Dimension Dimension::operator*(const Dimension& other) const {
 Dimension Dimension::operator/(const Dimension& other) const {
   Dimension result;
   for (std::size_t i = 0; i < exponents.size(); ++i) {
-    result.exponents[i] = static_cast<std::int8_t>(exponents[i] - other.exponents[i]);
+    result.exponents[i] = exponent(exponents[i] - other.exponents[i]);
   }
   return result;
 }

@@ -112,7 +112,9 @@ class Parser {
     } else if (c == '=') {
       refuse("a formula assigns nothing; write == to compare");
     } else {
-      refuse(fmt::format("'{}' has no meaning here", c));
+      std::size_t end = position_ + 1;  // of a character of several bytes in UTF-8
+      while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xC0u) == 0x80u) ++end;
+      refuse(fmt::format("'{}' has no meaning here", text_.substr(position_, end - position_)));
     }
   }
 
