@@ -172,9 +172,6 @@ class Compiler {
  private:
   double* add_built_in(const char* name) {
     double* value = compiled_.values.numbers();
-    if (scope_.symbols.contains(name)) {
-      errors_.add(Place{}, fmt::format("the variable '{}' has the name of a built-in one", name));
-    }
     scope_.symbols[name] = number_symbol(value);
     return value;
   }
@@ -187,9 +184,7 @@ class Compiler {
         CompiledSweep::Variable variable;
         variable.name = name;
         variable.axis = axis;
-        if (scope_.symbols.contains(name)) {
-          errors_.add(config.place, "the name '" + name + "' is taken by another variable");
-        }
+        refuse_taken_name(name, config.place, scope_, errors_);
         if (std::holds_alternative<double>(value)) {
           variable.number = compiled_.values.numbers();
           scope_.symbols[name] = number_symbol(variable.number);

@@ -1,7 +1,9 @@
 #include "scene/variables.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <string_view>
 
 namespace seedframe {
 namespace {
@@ -107,6 +109,17 @@ bool is_vector_formula(const NumberSource& source, const CompileScope& scope) {
 
 }  // namespace
 
+void refuse_taken_name(const std::string& name, const Place& place, const CompileScope& scope,
+                       Diagnostics& errors) {
+  static const std::array<std::string_view, 5> kBuiltIn = {"pi", "scene_index", "frame_index",
+                                                           "copy_index", "copies"};
+  if (std::find(kBuiltIn.begin(), kBuiltIn.end(), name) != kBuiltIn.end()) {
+    errors.add(place, "'" + name + "' is built in: a variable needs another name");
+  } else if (scope.symbols.contains(name)) {
+    errors.add(place, "the name '" + name + "' is taken by another variable");
+  }
+}
+
 VariableBlock::Variable VariableBlock::compile_variable(const VariableConfig& config,
                                                         const std::string& prefix, Level level,
                                                         const CompileScope& scope,
@@ -156,9 +169,7 @@ VariableBlock VariableBlock::compile(const std::vector<VariableConfig>& variable
   };
   std::vector<Storage> storage;
   for (const VariableConfig& variable : variables) {
-    if (scope.symbols.contains(variable.name) || variable.name == "pi") {
-      errors.add(variable.place, "the name '" + variable.name + "' is taken by another variable");
-    }
+    refuse_taken_name(variable.name, variable.place, scope, errors);
     const bool is_name = std::holds_alternative<NameSource>(variable.source);
     storage.push_back(is_name ? Storage{nullptr, values.name()}
                               : Storage{values.numbers(), nullptr});

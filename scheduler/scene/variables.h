@@ -40,6 +40,10 @@ struct GraphVariable {
 /// By the key that graphs use: "spread", "objects.bolts.spin".
 using GraphVariables = std::map<std::string, GraphVariable>;
 
+/// Says so if a new variable cannot have this name: it is built in, or known here already.
+void refuse_taken_name(const std::string& name, const Place& place, const CompileScope& scope,
+                       Diagnostics& errors);
+
 /// The variables of one level or of one object.
 class VariableBlock {
  public:
