@@ -1,4 +1,4 @@
-// docs/config.md, as tests read it.
+// docs/config.md and docs/config/values.md, as tests read them: as one page.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,13 @@
 namespace seedframe {
 
 inline std::string config_page() {
-  const auto text = read_file(std::filesystem::path(SEEDFRAME_HOME) / "docs" / "config.md");
-  EXPECT_TRUE(text);
-  return text.value_or("");
+  std::string page;
+  for (const char* file : {"config.md", "config/values.md"}) {
+    const auto text = read_file(std::filesystem::path(SEEDFRAME_HOME) / "docs" / file);
+    EXPECT_TRUE(text) << file;
+    page += text.value_or("") + "\n";
+  }
+  return page;
 }
 
 /// The page's yaml blocks as whole configs: what shows only some sections gets a version,

@@ -1,8 +1,13 @@
-// The examples of docs/config.md can be expanded, and every function it lists is there.
+// The examples of docs/config.md and docs/config/values.md can be expanded; the functions and the
+// materials that they list are those that there are.
 
+#include <set>
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "scene/expander.h"
+#include "scene/formula_functions.h"
 #include "tests/config/config_page.h"
 
 namespace seedframe {
@@ -54,25 +59,40 @@ TEST(ConfigPage, ItsExamplesCanBeExpanded) {
   }
 }
 
-TEST(ConfigPage, ListsFunctionsThatExist) {
-  int functions = 0;
+TEST(ConfigPage, ListsTheFunctionsThatThereAre) {
+  std::set<std::string> functions;
   for (std::string name : listed_in_formulas()) {
-    if (std::isalpha(static_cast<unsigned char>(name[0])) == 0 || name.find('?') != name.npos) {
-      continue;
-    }
-    if (name != "pi" && name.find('(') == std::string::npos) name += "(x)";
-    double x = 0.5;
+    if (std::isalpha(static_cast<unsigned char>(name[0])) == 0) continue;
+    if (name.find('(') == std::string::npos) name += "(x)";
+    const double x = 0.5;
     const std::array<double, 3> v = {1, 2, 3};
     Scope scope;
-    for (const char* number : {"x", "y", "a", "b", "low", "high", "h", "s", "angle", "T"}) {
+    for (const char* number :
+         {"x", "y", "a", "b", "low", "high", "r", "g", "h", "s", "value", "angle", "T"}) {
       scope[number] = number_symbol(&x);
     }
-    for (const char* vector : {"v", "w"}) scope[vector] = {{ValueType::kVector, {}}, v.data(), nullptr};
+    for (const char* vector : {"v", "w"}) {
+      scope[vector] = {{ValueType::kVector, {}}, v.data(), nullptr};
+    }
     const auto compiled = CompiledFormula::compile(name, scope);
-    EXPECT_TRUE(compiled) << name;
-    ++functions;
+    EXPECT_TRUE(compiled) << name << (compiled ? "" : ": " + compiled.error().message);
+    functions.insert(name.substr(0, name.find('(')));
   }
-  EXPECT_EQ(functions, 33) << "32 functions and pi";
+  EXPECT_THAT(functions, ::testing::UnorderedElementsAreArray(formula_function_names()));
+}
+
+TEST(ConfigPage, ListsTheBuiltInMaterials) {
+  const auto library = MaterialLibrary::open({kHome / "materials"}, {});
+  ASSERT_TRUE(library) << library.error().message;
+  std::vector<std::string> names = library->material_names();
+  for (const std::string& name : library->hdri_names()) names.push_back(name);
+  const std::string page = config_page();
+  const std::size_t begin = page.find("| built in | names |");
+  ASSERT_NE(begin, page.npos);
+  const std::string table = page.substr(begin, page.find("\n\n", begin) - begin);
+  for (const std::string& name : names) {
+    EXPECT_THAT(table, ::testing::HasSubstr("`" + name + "`")) << "docs/config.md";
+  }
 }
 
 }  // namespace
