@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 
 packages="
   ca-certificates ccache clang-format clang-tidy cmake g++ git ninja-build pkg-config
-  blender python3 python3-numpy
+  blender python3 python3-jsonschema python3-numpy python3-yaml
   libboost-dev libcgal-dev libcli11-dev libdraco-dev libeigen3-dev libembree-dev libexpected-dev
   libfmt-dev
   libopencolorio-dev libopenexr-dev libpng-dev librandom123-dev libsqlite3-dev libssl-dev
