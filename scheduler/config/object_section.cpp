@@ -75,8 +75,8 @@ VectorSource read_scale(SectionReader& section) {
   const auto node = section.find("scale");
   if (node && node->is_list()) return read_vector(*node, section.errors());
   VectorSource scale;
-  const NumberSource number = node ? read_number(*node, section.errors()) : number_constant(1.0);
-  scale.components.fill(number);
+  scale.alike = true;
+  scale.components[0] = node ? read_number(*node, section.errors()) : number_constant(1.0);
   return scale;
 }
 

@@ -49,6 +49,7 @@ struct Distribution {
 /// Three numbers, or one formula whose value is a vector.
 struct VectorSource {
   std::array<NumberSource, 3> components;
+  bool alike = false;  ///< the first component is for all three: one draw
   std::optional<NumberSource> formula;
 };
 

@@ -262,6 +262,14 @@ double NumberDraw::draw(const Random& random, const Place& place, EvaluationCont
 VectorDraw VectorDraw::compile_any(const VectorSource& source, const CompileScope& scope,
                                    const std::string& name, Level level, Diagnostics& errors) {
   VectorDraw vector;
+  if (source.alike) {
+    vector.alike_ = true;
+    vector.place_ = source.components[0].place;
+    vector.components_[0] =
+        NumberDraw::compile_any(source.components[0], scope, name, level, errors);
+    vector.dimension_ = vector.components_[0].dimension();
+    return vector;
+  }
   if (!source.formula) {
     vector.place_ = source.components[0].place;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -305,6 +313,7 @@ VectorDraw VectorDraw::compile(const VectorSource& source, const CompileScope& s
 }
 
 Eigen::Vector3d VectorDraw::evaluate(EvaluationContext& context) const {
+  if (alike_) return Eigen::Vector3d::Constant(components_[0].evaluate(context));
   if (!formula_) {
     return {components_[0].evaluate(context), components_[1].evaluate(context),
             components_[2].evaluate(context)};

@@ -109,6 +109,7 @@ class VectorDraw {
  private:
   Place place_;
   Dimension dimension_;
+  bool alike_ = false;  ///< the first component is for all three
   std::array<NumberDraw, 3> components_;
   std::shared_ptr<const CompiledFormula> formula_;
 };
