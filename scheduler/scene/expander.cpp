@@ -135,6 +135,7 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
       config_.sweep.hold_draws ? result.scene / combinations : result.scene);
   set_sweep(result.scene % combinations);
   if (graphs_ && graph_line_ != result.scene) {
+    graph_line_ = -1;  // should this line be wrong, none is in force
     if (Status applied = graphs_->apply(result.scene, compiled_.graph_variables); !applied) {
       return forward_error(applied);
     }
