@@ -111,9 +111,9 @@ TEST(Sweep, WithoutHoldDrawsEverySceneDrawsAnew) {
 
 TEST(Sweep, HeldDrawsAreThoseOfTheSameConfigWithoutASweep) {
   const auto swept = all_frames(kSweep);
-  const auto plain = all_frames(replaced(
-      replaced(kSweep, "sweep:\n  values:\n    size: [1, 2]\n    yaw: [0, 90, 180]\n", ""),
-      "campaign: {", "campaign: {size: 1, yaw: 0, "));
+  const auto plain = all_frames(
+      replaced(replaced(kSweep, "sweep:\n  values:\n    size: [1, 2]\n    yaw: [0, 90, 180]\n", ""),
+               "campaign: {", "campaign: {size: 1, yaw: 0, "));
   ASSERT_EQ(plain.size(), 4u);
   EXPECT_EQ(plain[0].id, swept[0].id);
   EXPECT_EQ(plain[1].id, swept[1].id);
@@ -159,8 +159,8 @@ TEST(Sweep, ANameThatIsTakenIsRefused) {
 
 TEST(Sweep, BuiltInNamesCannotBeVariables) {
   for (const std::string name : {"pi", "scene_index", "frame_index", "copy_index", "copies"}) {
-    EXPECT_THAT(scene_error(replaced(kSweep, "    size: [1, 2]", "    size: [1, 2]\n    " + name +
-                                                                     ": [1, 2]")),
+    EXPECT_THAT(scene_error(replaced(kSweep, "    size: [1, 2]",
+                                     "    size: [1, 2]\n    " + name + ": [1, 2]")),
                 HasSubstr("scene.yaml:12:" + std::to_string(7 + name.size()) + ": sweep.values." +
                           name + ": '" + name + "' is built in"));
     for (const std::string level : {"campaign", "scene", "frame"}) {
@@ -168,9 +168,9 @@ TEST(Sweep, BuiltInNamesCannotBeVariables) {
                                        "  " + level + ": {" + name + ": 1, ")),
                   HasSubstr("variables." + level + "." + name + ": '" + name + "' is built in"));
     }
-    EXPECT_THAT(scene_error(replaced(kSweep, "asset: cube",
-                                     "variables: {" + name + ": 1}, asset: cube")),
-                HasSubstr("objects.box.variables." + name + ": '" + name + "' is built in"));
+    EXPECT_THAT(
+        scene_error(replaced(kSweep, "asset: cube", "variables: {" + name + ": 1}, asset: cube")),
+        HasSubstr("objects.box.variables." + name + ": '" + name + "' is built in"));
   }
 }
 
