@@ -20,8 +20,8 @@ struct Campaign {
 };
 
 /// Makes the folder, campaign.yaml and the store with every frame pending. The folder must not
-/// exist, be empty, or hold what an interrupted create_campaign left (else kInput). Every frame is expanded; nothing is left behind when one cannot be,
-/// or when anything else fails.
+/// exist, be empty, or hold what an interrupted create_campaign left (else kInput). Every frame is
+/// expanded; nothing is left behind when one cannot be, or when anything else fails.
 Result<Campaign> create_campaign(const std::filesystem::path& folder, PreparedCampaign& prepared);
 
 /// Takes back a create_campaign of which nothing has been rendered.

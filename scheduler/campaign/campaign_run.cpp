@@ -100,8 +100,7 @@ Result<RenderRequest> CampaignRun::request(const FrameJob& job) {
   if (!meshes) return forward_error(meshes);
   request.meshes = std::move(*meshes);
   const auto add_image = [&](const std::string& sha256) {
-    request.textures[sha256] =
-        fs::absolute(prepared_.expander.image_files().at(sha256), ignored);
+    request.textures[sha256] = fs::absolute(prepared_.expander.image_files().at(sha256), ignored);
   };
   for (const MaterialSpec& material : expanded->spec.materials) {
     for (const auto& texture : material.textures) add_image(texture.second);

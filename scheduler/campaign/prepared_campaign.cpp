@@ -37,8 +37,8 @@ Result<PreparedCampaign> prepare(CampaignSource source) {
     config->scenes = opened->size();
     graphs = std::move(*opened);
   }
-  Result<SceneExpander> expander = SceneExpander::compile(*config, std::move(*assets),
-                                                          std::move(*materials), std::move(graphs));
+  Result<SceneExpander> expander =
+      SceneExpander::compile(*config, std::move(*assets), std::move(*materials), std::move(graphs));
   if (!expander) return forward_error(expander);
   return PreparedCampaign{std::move(source), std::move(*config), std::move(*expander)};
 }
@@ -62,8 +62,8 @@ Result<CampaignSize> expand_all(SceneExpander& expander, const ExpansionWishes& 
 std::string describe_constraints(const SceneExpander& expander) {
   std::string text;
   for (const ConstraintTally& tally : expander.constraint_tallies()) {
-    text += fmt::format("constraint {}: met in {} of {} draws\n", tally.name, tally.met,
-                        tally.checked);
+    text +=
+        fmt::format("constraint {}: met in {} of {} draws\n", tally.name, tally.met, tally.checked);
   }
   return text;
 }

@@ -91,8 +91,9 @@ void add_check_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("CONFIG", arguments->config, "campaign config (docs/config.md)")->required();
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
       ->allow_extra_args(false);
-  verb->add_option("--graphs", arguments->graphs,
-                   "write each frame's variables to this file, as JSON lines (docs/formats/graphs.md)");
+  verb->add_option(
+      "--graphs", arguments->graphs,
+      "write each frame's variables to this file, as JSON lines (docs/formats/graphs.md)");
   verb->add_flag("--json", arguments->json, "print what was found as JSON");
   verb->footer("Example: seedframe check configs/parts.yaml");
   verb->callback(

@@ -92,10 +92,11 @@ void read_size(SectionReader& section, CampaignConfig& config) {
   config.scenes = section.integer("scenes", 1, 1, kMostFrames) * config.sweep.size();
   config.frames_per_scene = section.integer("frames_per_scene", 1, 1, kMostFrames);
   if (config.scenes > kMostFrames || config.frame_count() > kMostFrames) {
-    section.errors().add(section.node().place(),
-                         fmt::format("scenes × frames_per_scene (× the combinations of the sweep) must not "
-                                     "exceed {}",
-                                     kMostFrames));
+    section.errors().add(
+        section.node().place(),
+        fmt::format("scenes × frames_per_scene (× the combinations of the sweep) must not "
+                    "exceed {}",
+                    kMostFrames));
   }
 }
 

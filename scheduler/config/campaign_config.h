@@ -128,10 +128,10 @@ struct ObjectConfig {
   MaterialSource material;
   std::map<std::string, MaterialSource> slots;  ///< by material slot, instead of `material`
   VectorSource scale;                           ///< along the object's own axes
-  VectorSource rotation_deg;             ///< Euler angles, applied about x, then y, then z
-  VectorSource position;                 ///< metres, in the parent; x right, y away, z up
-  std::optional<ScatterConfig> scatter;  ///< replaces x and y of the position
-  bool rest_on_ground = false;           ///< the lowest vertex is lifted to z of the position
+  VectorSource rotation_deg;                    ///< Euler angles, applied about x, then y, then z
+  VectorSource position;                        ///< metres, in the parent; x right, y away, z up
+  std::optional<ScatterConfig> scatter;         ///< replaces x and y of the position
+  bool rest_on_ground = false;  ///< the lowest vertex is lifted to z of the position
   HiddenFrom hidden_from;
   std::vector<ObjectConfig> objects;  ///< placed relative to each copy of this one
 };
@@ -176,8 +176,8 @@ struct CameraConfig {
   Level redraw = Level::kFrame;
   Place place;
   std::vector<VariableConfig> variables;
-  std::optional<NumberSource> fov_deg;   ///< horizontal
-  std::optional<std::array<NumberSource, 2>> focal_px;   ///< fx, fy; or fov_deg is set
+  std::optional<NumberSource> fov_deg;  ///< horizontal
+  std::vector<NumberSource> focal_px;   ///< one for both or fx, fy; empty: fov_deg is set
   std::optional<std::array<NumberSource, 2>> center_px;  ///< cx, cy; none: the image's middle
   /// Position and target are relative to the first copy of this object; none: to the world.
   std::optional<std::string> parent;
@@ -212,7 +212,7 @@ struct CampaignConfig {
   CameraConfig camera;
   SweepConfig sweep;
   std::vector<ConstraintConfig> constraints;
-  int max_attempts = 100;  ///< to meet all constraints in a frame
+  int max_attempts = 100;                       ///< to meet all constraints in a frame
   std::optional<std::filesystem::path> graphs;  ///< JSON lines of variables' values, one a frame
 
   std::int64_t frame_count() const { return scenes * frames_per_scene; }

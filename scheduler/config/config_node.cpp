@@ -121,8 +121,8 @@ Status apply(const YAML::Node& root, const Override& change) {
 
 constexpr int kMostBases = 8;
 
-/// The config that `root`'s key `base` names, and in `overrides`, before what is there already, what
-/// `root` replaces in it.
+/// The config that `root`'s key `base` names, and in `overrides`, before what is there already,
+/// what `root` replaces in it.
 Result<std::string> read_base(const YAML::Node& root, const std::string& file,
                               std::filesystem::path& base_file, std::vector<Override>& overrides) {
   const auto fault = [&](const YAML::Node& node, const std::string& key,
@@ -140,9 +140,10 @@ Result<std::string> read_base(const YAML::Node& root, const std::string& file,
     } else if (key == "set" && entry.second.IsMap()) {
       for (const auto& change : entry.second) replace(change.first.Scalar(), change.second);
     } else if (key != "base") {
-      return fault(entry.second, key,
-                   "a config with a base has only seedframe, base, name, description and set, which "
-                   "is a mapping of path: value");
+      return fault(
+          entry.second, key,
+          "a config with a base has only seedframe, base, name, description and set, which "
+          "is a mapping of path: value");
     }
   }
   const YAML::Node base = root["base"];

@@ -82,7 +82,8 @@ Result<std::vector<double>> read_csv_column(const std::filesystem::path& file,
     const std::size_t row = line;
     const std::vector<std::string> fields = take_record(text, line);
     if (fields.size() == 1 && trimmed(fields[0]).empty()) continue;  // an empty line
-    const std::string_view cell = index < fields.size() ? trimmed(fields[index]) : std::string_view();
+    const std::string_view cell =
+        index < fields.size() ? trimmed(fields[index]) : std::string_view();
     double value = 0.0;
     const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) {

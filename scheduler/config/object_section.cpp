@@ -99,8 +99,8 @@ ObjectConfig read_object(const std::string& name, const ConfigNode& node, Diagno
   object.material = section.material("material");
   if (const auto slots = section.find("slots")) {
     if (!slots->is_map() && !slots->is_null()) {
-      errors.add(slots->place(), "expected a mapping of material slots, found " +
-                                     slots->description());
+      errors.add(slots->place(),
+                 "expected a mapping of material slots, found " + slots->description());
     }
     for (const auto& [slot, source] : slots->entries()) {
       object.slots.emplace(slot, read_material_source(source, errors));
@@ -116,8 +116,15 @@ ObjectConfig read_object(const std::string& name, const ConfigNode& node, Diagno
   object.hidden_from = read_hidden_from(section);
   object.objects = read_objects(section);
   if (!object.asset && object.objects.empty() && !node.find("objects")) {
-    errors.add(node.place(), "the key 'asset' is missing (only a group, with 'objects' of its own, "
-                             "needs none)");
+    errors.add(node.place(),
+               "the key 'asset' is missing (only a group, with 'objects' of its own, "
+               "needs none)");
+  }
+  for (const char* key : {"category", "material", "slots", "hidden_from"}) {
+    if (object.asset || !node.find(key)) continue;
+    errors.add(node.find(key)->place(), fmt::format("{} belongs to an asset, and this group has "
+                                                    "none",
+                                                    key));
   }
   if (object.scatter && object.grid) {
     errors.add(node.find("grid")->place(), "scatter and grid exclude each other");

@@ -34,8 +34,9 @@ SweepAxis read_axis(const std::string& name, const ConfigNode& node, Diagnostics
     }
     for (const auto& [variable, value] : item.entries()) {
       if (!is_identifier(variable)) {
-        errors.add(value.place(), "a variable's name must be letters, digits and '_', and not "
-                                  "start with a digit");
+        errors.add(value.place(),
+                   "a variable's name must be letters, digits and '_', and not "
+                   "start with a digit");
       }
       point.emplace(variable, read_swept_value(value, errors));
     }
@@ -48,8 +49,9 @@ SweepAxis read_axis(const std::string& name, const ConfigNode& node, Diagnostics
            });
   });
   if (!alike) {
-    errors.add(node.place(), "every value of an axis must be of the same kind: all numbers, all "
-                             "names, or all mappings of the same variables");
+    errors.add(node.place(),
+               "every value of an axis must be of the same kind: all numbers, all "
+               "names, or all mappings of the same variables");
   }
   return axis;
 }
@@ -69,8 +71,7 @@ ConstraintKind read_kind(SectionReader& section) {
   const auto found = std::find(kNames.begin(), kNames.end(), text);
   if (found != kNames.end()) return static_cast<ConstraintKind>(found - kNames.begin());
   if (node) {
-    section.errors().add(node->place(),
-                         "unknown type of constraint" + did_you_mean(text, kNames));
+    section.errors().add(node->place(), "unknown type of constraint" + did_you_mean(text, kNames));
   }
   return ConstraintKind::kVisible;
 }
@@ -127,20 +128,19 @@ SweepConfig read_sweep(SectionReader& campaign) {
 
 std::vector<ConstraintConfig> read_constraints(SectionReader& campaign,
                                                const std::vector<ObjectConfig>& objects) {
-  std::vector<ConstraintConfig> constraints =
-      read_named(campaign, "constraints",
-                 +[](const std::string& name, const ConfigNode& node, Diagnostics& errors) {
-                   ConstraintConfig constraint;
-                   constraint.name = name;
-                   constraint.place = node.place();
-                   SectionReader section(node, errors);
-                   constraint.kind = read_kind(section);
-                   constraint.objects = section.texts("objects");
-                   constraint.at_least =
-                       section.number("at_least", default_bound(constraint.kind));
-                   section.refuse_other_keys();
-                   return constraint;
-                 });
+  std::vector<ConstraintConfig> constraints = read_named(
+      campaign, "constraints",
+      +[](const std::string& name, const ConfigNode& node, Diagnostics& errors) {
+        ConstraintConfig constraint;
+        constraint.name = name;
+        constraint.place = node.place();
+        SectionReader section(node, errors);
+        constraint.kind = read_kind(section);
+        constraint.objects = section.texts("objects");
+        constraint.at_least = section.number("at_least", default_bound(constraint.kind));
+        section.refuse_other_keys();
+        return constraint;
+      });
   std::vector<std::string> names;
   collect_names(objects, names);
   for (const ConstraintConfig& constraint : constraints) {

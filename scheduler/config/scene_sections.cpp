@@ -25,7 +25,8 @@ void read_light_output(SectionReader& section, LightConfig& light) {
   const char* const key = sun ? "lux" : "lumens";
   photometric = section.optional_number(key);
   if (light.power && photometric) {
-    section.errors().add(section.node().place(), fmt::format("power and {} exclude each other", key));
+    section.errors().add(section.node().place(),
+                         fmt::format("power and {} exclude each other", key));
   }
   if (!light.power && !photometric) {
     section.errors().add(section.node().place(),
@@ -67,32 +68,30 @@ LightConfig read_light(const std::string& name, const ConfigNode& node, Diagnost
   return light;
 }
 
-/// One number for x and y, or a list of two.
-std::array<NumberSource, 2> read_number_or_pair(const ConfigNode& node, const char* what,
-                                                Diagnostics& errors) {
-  const auto items = node.items();
-  if (!node.is_list()) {
-    const NumberSource both = read_number(node, errors);
-    return {both, both};
-  }
-  if (items.size() == 2) return {read_number(items[0], errors), read_number(items[1], errors)};
-  errors.add(node.place(), fmt::format("expected {}, found {}", what, node.description()));
-  return {number_constant(1.0), number_constant(1.0)};
-}
-
 void read_lens(SectionReader& section, CameraConfig& camera) {
   Diagnostics& errors = section.errors();
   camera.fov_deg = section.optional_number("fov_deg");
   if (const auto focal = section.find("focal_px")) {
-    camera.focal_px = read_number_or_pair(*focal, "a focal length or [fx, fy]", errors);
+    for (const ConfigNode& item : focal->items()) {
+      camera.focal_px.push_back(read_number(item, errors));
+    }
+    if (!focal->is_list()) camera.focal_px = {read_number(*focal, errors)};
+    if (focal->is_list() && camera.focal_px.size() != 2) {
+      errors.add(focal->place(),
+                 "expected a focal length or [fx, fy], found " + focal->description());
+    }
   }
-  if (camera.fov_deg && camera.focal_px) {
+  if (camera.fov_deg && !camera.focal_px.empty()) {
     errors.add(section.node().place(), "fov_deg and focal_px exclude each other");
   }
-  if (!camera.fov_deg && !camera.focal_px) camera.fov_deg = number_constant(50.0);
+  if (!camera.fov_deg && camera.focal_px.empty()) camera.fov_deg = number_constant(50.0);
   if (const auto center = section.find("center_px")) {
-    if (!center->is_list()) errors.add(center->place(), "expected [cx, cy]");
-    camera.center_px = read_number_or_pair(*center, "[cx, cy]", errors);
+    const auto items = center->items();
+    if (items.size() == 2) {
+      camera.center_px = {{read_number(items[0], errors), read_number(items[1], errors)}};
+    } else {
+      errors.add(center->place(), "expected [cx, cy], found " + center->description());
+    }
   }
   camera.clip_start_m = section.number("clip_start_m", 0.01);
   camera.clip_end_m = section.number("clip_end_m", 1000.0);

@@ -43,8 +43,8 @@ std::optional<GridConfig> SectionReader::grid() {
   const auto counts = section.require("counts");
   const std::vector<ConfigNode> items = counts ? counts->items() : std::vector<ConfigNode>();
   if (counts && (items.empty() || items.size() > 3)) {
-    errors_.add(counts->place(), "expected [along x, along y, along z], found " +
-                                     counts->description());
+    errors_.add(counts->place(),
+                "expected [along x, along y, along z], found " + counts->description());
   }
   for (std::size_t i = 0; i < 3; ++i) {
     grid.counts[i] = i < items.size() ? read_number(items[i], errors_) : number_constant(1.0);

@@ -184,8 +184,9 @@ NumberSource read_sobol(const ConfigNode& node, Diagnostics& errors) {
 
 NumberSource read_mixture(const ConfigNode& node, Diagnostics& errors) {
   if (node.is_list()) return read_number_choice(node, errors);
-  errors.add(node.place(), "mixture wants a list of distributions or of {value: …, weight: …}, found " +
-                               node.description());
+  errors.add(node.place(),
+             "mixture wants a list of distributions or of {value: …, weight: …}, found " +
+                 node.description());
   return {node.place(), 0.0};
 }
 

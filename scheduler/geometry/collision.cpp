@@ -1,5 +1,6 @@
 #include "geometry/collision.h"
 
+#include <Eigen/SVD>
 #include <array>
 #include <vector>
 
@@ -7,7 +8,6 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <Eigen/SVD>
 
 namespace seedframe {
 namespace {

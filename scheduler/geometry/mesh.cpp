@@ -128,6 +128,10 @@ double lowest_z(const Mesh& mesh, const Eigen::Matrix3d& linear) {
 
 LowestPoint::LowestPoint(const Mesh& mesh) : vertices_(mesh.positions) {
   split(0, vertices_.size());
+  for (const auto& vertex : vertices_) {
+    lowest_ = &vertex == vertices_.data() ? vertex[2] : std::min(lowest_, vertex[2]);
+    highest_ = &vertex == vertices_.data() ? vertex[2] : std::max(highest_, vertex[2]);
+  }
 }
 
 // Halves the vertices at the median of the box's longest side until a group is small.
@@ -158,6 +162,9 @@ void LowestPoint::split(std::size_t first, std::size_t count) {
 
 double LowestPoint::z(const Eigen::Matrix3d& linear) const {
   const auto row = z_row(linear);
+  if (!vertices_.empty() && row[0] == 0.0 && row[1] == 0.0) {  // upright, as most things stand
+    return row[2] * static_cast<double>(row[2] < 0.0 ? highest_ : lowest_);
+  }
   double lowest = std::numeric_limits<double>::infinity();
   for (const Group& group : groups_) {
     double bound = 0.0;

@@ -65,6 +65,7 @@ class LowestPoint {
 
   std::vector<std::array<float, 3>> vertices_;
   std::vector<Group> groups_;
+  float lowest_ = 0.0F, highest_ = 0.0F;  ///< z of all vertices
 };
 
 }  // namespace seedframe

@@ -42,8 +42,8 @@ RayMesh::RayMesh(const Mesh& mesh) : tree_(std::make_unique<Tree>()) {
   const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
   using Point = std::array<float, 3>;
   using Triangle = std::array<std::uint32_t, 3>;
-  Point* points = new_buffer<Point>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
-                                    mesh.positions.size());
+  Point* points =
+      new_buffer<Point>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions.size());
   std::copy(mesh.positions.begin(), mesh.positions.end(), points);
   Triangle* triangles = new_buffer<Triangle>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
                                              mesh.triangles.size());
@@ -57,8 +57,8 @@ RayMesh::RayMesh(const Mesh& mesh) : tree_(std::make_unique<Tree>()) {
 RayMesh::~RayMesh() = default;
 
 struct VisibilityScene::Scene {
-  RTCScene all = new_scene();               ///< every seen instance, by its index
-  std::vector<RTCScene> alone;              ///< each by itself, made when asked for
+  RTCScene all = new_scene();   ///< every seen instance, by its index
+  std::vector<RTCScene> alone;  ///< each by itself, made when asked for
   ~Scene() {
     rtcReleaseScene(all);
     for (const RTCScene scene : alone) rtcReleaseScene(scene);
@@ -139,7 +139,8 @@ PixelRange projected_range(const BoundingBox& box, const Eigen::Affine3d& camera
   if (behind == 8) return {};
   if (behind > 0) return canvas;  // it reaches past the camera: anywhere
   const auto clamped = [](double value, int least, int most) {
-    return static_cast<int>(std::clamp(value, static_cast<double>(least), static_cast<double>(most)));
+    return static_cast<int>(
+        std::clamp(value, static_cast<double>(least), static_cast<double>(most)));
   };
   return {clamped(std::floor(low[0]), canvas.begin_x, canvas.end_x),
           clamped(std::ceil(high[0]) + 1, canvas.begin_x, canvas.end_x),

@@ -44,7 +44,7 @@ struct RayInstance {
 
 /// Pixels of one instance, at the centres of a grid over its projection.
 struct PixelCounts {
-  double whole = 0.0;    ///< its full silhouette, also outside the image and behind others
+  double whole = 0.0;     ///< its full silhouette, also outside the image and behind others
   double in_image = 0.0;  ///< of that, inside the image
   double visible = 0.0;   ///< of that, not hidden by others
 };

@@ -11,17 +11,18 @@ namespace {
 
 void set_intrinsics(const CompiledCamera& camera, const RenderSettings& render, CameraSpec& spec,
                     EvaluationContext& context) {
-  if (camera.focal_px) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      spec.focal_px[i] = positive((*camera.focal_px)[i], "focal_px", context);
-    }
+  if (!camera.focal_px.empty()) {
+    spec.focal_px[0] = positive(camera.focal_px.front(), "focal_px", context);
+    spec.focal_px[1] = camera.focal_px.size() == 1
+                           ? spec.focal_px[0]
+                           : positive(camera.focal_px.back(), "focal_px", context);
   } else {
     const double fov = within(*camera.fov_deg, 0.01, 179.0, "fov_deg", context);
     spec.focal_px.fill(0.5 * render.width / portable::tan(0.5 * portable::radians(fov)));
   }
   // The sensor is 36 mm wide in Blender, and it clamps a lens below 1 mm without a word.
   if (spec.focal_px[0] < render.width / 36.0) {
-    context.report(camera.fov_deg ? camera.fov_deg->place() : (*camera.focal_px)[0].place(),
+    context.report(camera.fov_deg ? camera.fov_deg->place() : camera.focal_px.front().place(),
                    "the view is too wide: Blender's lenses reach 173.6 degrees (a focal length of "
                    "1/36 of the image's width)");
   }
@@ -35,8 +36,8 @@ void set_intrinsics(const CompiledCamera& camera, const RenderSettings& render, 
   spec.clip_end_m = at_least(camera.clip_end_m, spec.clip_start_m, true, "clip_end_m", context);
 }
 
-/// The lens behind an f-stop: its aperture is its focal length over the f-stop, and it is as long as
-/// the sensor's width asks for.
+/// The lens behind an f-stop: its aperture is its focal length over the f-stop, and it is as long
+/// as the sensor's width asks for.
 void set_focus(const CompiledCamera& camera, const RenderSettings& render, double target_distance,
                CameraSpec& spec, EvaluationContext& context) {
   const double f_stop = not_negative(camera.f_stop, "f_stop", context);

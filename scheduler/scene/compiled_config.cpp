@@ -56,8 +56,8 @@ class SectionCompiler {
       wanted.insert(wanted.end(), compiled.parametric.begin(), compiled.parametric.end());
       result.choice = std::move(compiled);
     } else {
-      const NameDraw draw = NameDraw::compile(std::get<NameSource>(source), scope_, result.key,
-                                              level_, errors_);
+      const NameDraw draw =
+          NameDraw::compile(std::get<NameSource>(source), scope_, result.key, level_, errors_);
       result.place = draw.place();
       const auto possible = draw.possible_values();
       wanted = possible.value_or(library.material_names());
@@ -76,11 +76,11 @@ class SectionCompiler {
 
   std::optional<CompiledGrid> grid(const std::optional<GridConfig>& config) const {
     if (!config) return std::nullopt;
-    return CompiledGrid{config->place,
-                        {number(config->counts[0], "grid.counts[0]"),
-                         number(config->counts[1], "grid.counts[1]"),
-                         number(config->counts[2], "grid.counts[2]")},
-                        vector(config->spacing_m, "grid.spacing_m")};
+    return CompiledGrid{
+        config->place,
+        {number(config->counts[0], "grid.counts[0]"), number(config->counts[1], "grid.counts[1]"),
+         number(config->counts[2], "grid.counts[2]")},
+        vector(config->spacing_m, "grid.spacing_m")};
   }
   std::optional<NumberDraw> number(const std::optional<NumberSource>& source,
                                    const char* key) const {
@@ -119,9 +119,8 @@ class SectionCompiler {
     for (const std::vector<std::string>* names : {&share.realistic, &share.parametric}) {
       for (const std::string& name : *names) {
         if (library.materials().contains(name)) continue;
-        errors_.add(config.place,
-                    fmt::format("there is no material '{}'{}", name,
-                                did_you_mean(name, library.material_names())));
+        errors_.add(config.place, fmt::format("there is no material '{}'{}", name,
+                                              did_you_mean(name, library.material_names())));
       }
     }
     return share;
@@ -209,12 +208,11 @@ class Compiler {
     }
     if (!config_.ground) return;
     const SectionCompiler section(scope_, "ground", config_.ground->redraw, errors_);
-    compiled_.ground =
-        CompiledGround{section.number(config_.ground->width_m, "width_m"),
-                       section.number(config_.ground->depth_m, "depth_m"),
-                       section.number(config_.ground->curvature_per_m, "curvature_per_m"),
-                       section.materials(config_.ground->material, materials_, "material"),
-                       config_.ground->place};
+    compiled_.ground = CompiledGround{
+        section.number(config_.ground->width_m, "width_m"),
+        section.number(config_.ground->depth_m, "depth_m"),
+        section.number(config_.ground->curvature_per_m, "curvature_per_m"),
+        section.materials(config_.ground->material, materials_, "material"), config_.ground->place};
   }
 
   void compile_camera() {
@@ -231,7 +229,11 @@ class Compiler {
                                        section.number(sources[1], (key + "[1]").c_str())};
     };
     camera.fov_deg = section.number(config.fov_deg, "fov_deg");
-    if (config.focal_px) camera.focal_px = pair(*config.focal_px, "focal_px");
+    for (std::size_t i = 0; i < config.focal_px.size(); ++i) {
+      const std::string key =
+          config.focal_px.size() == 1 ? "focal_px" : fmt::format("focal_px[{}]", i);
+      camera.focal_px.push_back(section.number(config.focal_px[i], key.c_str()));
+    }
     if (config.center_px) camera.center_px = pair(*config.center_px, "center_px");
     if (config.target) camera.target = section.vector(*config.target, "target");
     if (config.position) camera.position = section.vector(*config.position, "position");
@@ -249,8 +251,10 @@ class Compiler {
     std::vector<std::string> names;
     for (const ObjectConfig& object : config_.objects) names.push_back(object.name);
     if (std::find(names.begin(), names.end(), *config.parent) == names.end()) {
-      errors_.add(config.place, "there is no object '" + *config.parent + "' to be the camera's "
-                                    "parent" + did_you_mean(*config.parent, names));
+      errors_.add(config.place, "there is no object '" + *config.parent +
+                                    "' to be the camera's "
+                                    "parent" +
+                                    did_you_mean(*config.parent, names));
     }
   }
 

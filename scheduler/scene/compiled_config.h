@@ -98,7 +98,8 @@ struct CompiledCamera {
   Place place;
   VariableBlock variables;
   std::optional<NumberDraw> fov_deg;
-  std::optional<std::array<NumberDraw, 2>> focal_px, center_px;
+  std::vector<NumberDraw> focal_px;  ///< one for both, or fx and fy; empty: by fov_deg
+  std::optional<std::array<NumberDraw, 2>> center_px;
   std::optional<std::string> parent;
   std::optional<VectorDraw> target, position;
   NumberDraw distance_m, azimuth_deg, elevation_deg, roll_deg, clip_start_m, clip_end_m;

@@ -52,9 +52,10 @@ bool all_distant(const std::vector<const PlacedInstance*>& instances, double lea
 ConstraintChecker::ConstraintChecker(const std::vector<CompiledConstraint>& constraints)
     : constraints_(constraints), cheapest_first_(constraints.size()) {
   std::iota(cheapest_first_.begin(), cheapest_first_.end(), std::size_t{0});
-  std::stable_sort(cheapest_first_.begin(), cheapest_first_.end(), [&](std::size_t a, std::size_t b) {
-    return price(constraints[a].kind) < price(constraints[b].kind);
-  });
+  std::stable_sort(cheapest_first_.begin(), cheapest_first_.end(),
+                   [&](std::size_t a, std::size_t b) {
+                     return price(constraints[a].kind) < price(constraints[b].kind);
+                   });
   for (const CompiledConstraint& constraint : constraints) tallies_.push_back({constraint.name});
 }
 
@@ -104,8 +105,8 @@ bool ConstraintChecker::all_apart(const std::vector<const PlacedInstance*>& inst
                                   double gap_m) {
   std::vector<SolidInstance> solids;
   for (const PlacedInstance* instance : instances) {
-    solids.push_back({&solid_mesh(*instance->asset), instance->asset->box,
-                      instance->world_from_object});
+    solids.push_back(
+        {&solid_mesh(*instance->asset), instance->asset->box, instance->world_from_object});
   }
   for (std::size_t i = 0; i < solids.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -118,9 +119,8 @@ bool ConstraintChecker::all_apart(const std::vector<const PlacedInstance*>& inst
 VisibilityScene& ConstraintChecker::visibility(const FrameDraft& draft) {
   if (visibility_) return *visibility_;
   const CameraSpec& camera = draft.spec.camera;
-  const PixelCamera pixels{draft.spec.render.width, draft.spec.render.height,
-                           camera.focal_px,         camera.center_px,
-                           camera.clip_start_m,     camera.clip_end_m};
+  const PixelCamera pixels{draft.spec.render.width, draft.spec.render.height, camera.focal_px,
+                           camera.center_px,        camera.clip_start_m,      camera.clip_end_m};
   std::vector<RayInstance> instances;
   for (const PlacedInstance& placed : draft.placed) {
     RayInstance instance;

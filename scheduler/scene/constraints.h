@@ -43,7 +43,7 @@ class ConstraintChecker {
   const std::vector<CompiledConstraint>& constraints_;
   std::vector<std::size_t> cheapest_first_;
   std::vector<ConstraintTally> tallies_;
-  std::unique_ptr<VisibilityScene> visibility_;  ///< of the present frame
+  std::unique_ptr<VisibilityScene> visibility_;                       ///< of the present frame
   std::map<std::string, std::shared_ptr<const RayMesh>> ray_meshes_;  ///< by the mesh's SHA-256
   std::map<std::string, std::unique_ptr<SolidMesh>> solid_meshes_;
   std::string ground_sha256_;  ///< of the last frame's ground, which is often that of the next

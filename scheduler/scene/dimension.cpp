@@ -23,7 +23,8 @@ const std::array<Unit, 9>& units() {
   return list;
 }
 
-/// Stays at the ends of its range: coming round to 0 would make a plain number of a power of metres.
+/// Stays at the ends of its range: coming round to 0 would make a plain number of a power of
+/// metres.
 std::int8_t exponent(int value) { return static_cast<std::int8_t>(std::clamp(value, -127, 127)); }
 
 }  // namespace
@@ -71,6 +72,7 @@ Dimension dimension_of_key(std::string_view key) {
   const std::string_view name = key.substr(0, key.find('['));
   const std::string_view last = name.substr(name.rfind('.') + 1);
   if (last.ends_with("_deg")) return kAngle;
+  if (last.ends_with("_per_m")) return Dimension{} / kLength;
   if (last.ends_with("_m")) return kLength;
   if (last == "position" || last == "target" || last == "x" || last == "y") return kLength;
   if (last == "power") return kRadiantFlux;

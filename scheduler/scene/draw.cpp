@@ -52,7 +52,8 @@ std::string parameter_fault(DistributionKind kind, const std::array<double, 4>& 
       break;
     case DistributionKind::kPoisson:
       if (p[0] < 0 || p[0] > kLargestPoissonMean) {
-        return fmt::format("poisson wants a mean from 0 to {}, found {}", kLargestPoissonMean, p[0]);
+        return fmt::format("poisson wants a mean from 0 to {}, found {}", kLargestPoissonMean,
+                           p[0]);
       }
       break;
     case DistributionKind::kChoice:
@@ -131,9 +132,8 @@ std::shared_ptr<const NumberDraw::Random> NumberDraw::compile_random(const Numbe
     for (const NumberSource& w : distribution.weights) {
       random.constant_weights.push_back(std::get<double>(w.value));
     }
-    const std::string fault = random.constant_weights.empty()
-                                  ? std::string()
-                                  : weight_fault(random.constant_weights);
+    const std::string fault =
+        random.constant_weights.empty() ? std::string() : weight_fault(random.constant_weights);
     if (!fault.empty()) errors.add(source.place, fault);
   }
   for (const NumberDraw& weight : random.weights) {
@@ -195,9 +195,8 @@ double NumberDraw::evaluate(EvaluationContext& context) const {
   if (const double* constant = std::get_if<double>(&value_)) return *constant;
   const auto* formula = std::get_if<std::shared_ptr<const CompiledFormula>>(&value_);
   const double value =
-      formula != nullptr
-          ? (*formula)->number()
-          : draw(*std::get<std::shared_ptr<const Random>>(value_), place_, context);
+      formula != nullptr ? (*formula)->number()
+                         : draw(*std::get<std::shared_ptr<const Random>>(value_), place_, context);
   if (std::isfinite(value)) return value;
   context.report(place_, fmt::format("the value is {}, but a number must be finite", value));
   return 0.0;
@@ -255,7 +254,8 @@ double NumberDraw::draw(const Random& random, const Place& place, EvaluationCont
         break;
     }
   }
-  if (context.record != nullptr) context.record->push_back({draw_name(random.name, context), value});
+  if (context.record != nullptr)
+    context.record->push_back({draw_name(random.name, context), value});
   return value;
 }
 
@@ -419,10 +419,10 @@ NameDraw NameDraw::compile(const NameSource& source, const CompileScope& scope,
   draw.name_ = name;
   if (source.options.size() > 1) draw.stream_ = PhiloxStream(scope.seed, name);
   for (const NameSource::Option& option : source.options) {
-    draw.options_.push_back({split(option.text, scope, source.place, errors),
-                             NumberDraw::compile_any(option.weight, scope,
-                                                     name + ".weight." + option.text, level,
-                                                     errors)});
+    draw.options_.push_back(
+        {split(option.text, scope, source.place, errors),
+         NumberDraw::compile_any(option.weight, scope, name + ".weight." + option.text, level,
+                                 errors)});
   }
   return draw;
 }

@@ -183,8 +183,8 @@ SceneExpander& SceneExpander::operator=(SceneExpander&&) noexcept = default;
 Result<SceneExpander> SceneExpander::compile(const CampaignConfig& config, AssetLibrary assets,
                                              MaterialLibrary materials,
                                              std::optional<Graphs> graphs) {
-  auto program = std::make_unique<Program>(config, std::move(assets), std::move(materials),
-                                           std::move(graphs));
+  auto program =
+      std::make_unique<Program>(config, std::move(assets), std::move(materials), std::move(graphs));
   if (Status compiled = program->compile(); !compiled) return forward_error(compiled);
   return SceneExpander(std::move(program));
 }

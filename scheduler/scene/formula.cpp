@@ -219,7 +219,8 @@ class Builder {
     if (!node.text.empty()) {
       const auto unit = find_unit(node.text);
       if (!unit) {
-        refuse("there is no unit '" + node.text + "' (there are: deg, rad, m, cm, mm, km, W, lm, K)");
+        refuse("there is no unit '" + node.text +
+               "' (there are: deg, rad, m, cm, mm, km, W, lm, K)");
         return 0;
       }
       operation.constant *= unit->base_units;
@@ -237,8 +238,7 @@ class Builder {
         return 0;
       }
       Operation operation;
-      operation.code =
-          symbol.type.type == ValueType::kNumber ? Code::kNumber : Code::kVector;
+      operation.code = symbol.type.type == ValueType::kNumber ? Code::kNumber : Code::kVector;
       operation.type = symbol.type;
       operation.variable = symbol.numbers;
       return add(std::move(operation));

@@ -1,8 +1,8 @@
 // Formulas of a config: typed arithmetic over numbers with units, vectors and texts.
 //
 // The grammar, loosest first: a ? b : c, ||, &&, == != < <= > >=, + -, * /, unary - + !, then
-// v.x, v[0] and calls. Types and units are checked when a formula is compiled; what is computed goes
-// through portable functions, so that the last bit does not depend on the CPU.
+// v.x, v[0] and calls. Types and units are checked when a formula is compiled; what is computed
+// goes through portable functions, so that the last bit does not depend on the CPU.
 #pragma once
 
 #include <Eigen/Core>

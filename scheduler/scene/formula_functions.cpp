@@ -168,7 +168,9 @@ FormulaValue rotated(Values a, Types types) {
   return result;
 }
 
-FormulaValue hsv(Values a, Types) { return linear_from_hsv(a[0][0], a[1][0], a[2][0]); }
+FormulaValue hsv(Values a, Types) {
+  return linear_from_hsv(a[0][0], std::min(a[1][0], 1.0), a[2][0]);
+}
 FormulaValue blackbody(Values a, Types) { return linear_from_kelvin(a[0][0]); }
 FormulaValue rgb(Values a, Types) { return {a[0][0], a[1][0], a[2][0]}; }
 

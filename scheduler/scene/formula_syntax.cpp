@@ -38,9 +38,7 @@ class Parser {
   }
 
  private:
-  tl::unexpected<Error> fault() const {
-    return fail(ErrorKind::kInput, "'{}': {}", text_, error_);
-  }
+  tl::unexpected<Error> fault() const { return fail(ErrorKind::kInput, "'{}': {}", text_, error_); }
 
   void refuse(const std::string& reason) {
     if (error_.empty()) error_ = fmt::format("{} (character {})", reason, token_.begin + 1);

@@ -84,7 +84,8 @@ struct LightSpec {
   double height_m = 0.0;   ///< area
 };
 
-/// Light from everywhere: one colour, or an environment map (equirectangular, z up) multiplied by it.
+/// Light from everywhere: one colour, or an environment map (equirectangular, z up) multiplied by
+/// it.
 struct WorldSpec {
   Rgb color{};
   double strength = 0.0;

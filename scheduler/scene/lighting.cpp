@@ -26,9 +26,8 @@ void set_power(const CompiledLight& light, LightSpec& spec, EvaluationContext& c
     context.report(output.place(), "black light has no lumens: give the light a colour");
     return;
   }
-  spec.power = light.type == LightType::kSpot
-                   ? spot_watts_from_lumens(amount, y, spec.angle_rad)
-                   : watts_from_lumens(amount, y);
+  spec.power = light.type == LightType::kSpot ? spot_watts_from_lumens(amount, y, spec.angle_rad)
+                                              : watts_from_lumens(amount, y);
 }
 
 LightSpec one_light(const CompiledLight& light, const Eigen::Vector3d& offset,

@@ -107,8 +107,10 @@ void ObjectPlacer::place(const CompiledObject& object, Parent& parent, Pass& pas
   context.copy = parent.copy;
   const auto most = static_cast<std::uint32_t>(kLargestInstanceId);
   const Grid grid = object.grid ? evaluate_grid(*object.grid, most, context) : Grid();
-  const std::uint32_t copies =
-      object.grid ? grid.size() : copies_of(object.count, most, context);
+  const std::uint32_t copies = object.grid ? grid.size() : copies_of(object.count, most, context);
+  // Of a copy of a group, for what comes after this object in it.
+  const double copies_of_parent = *pass.built_in.copies;
+  const double index_of_parent = *pass.built_in.copy_index;
   for (std::uint32_t copy = 0; copy < copies && !context.error; ++copy) {
     context.copy = copy_for_draws(parent.copy, copy, object.place, context);
     context.ordinal = pass.draft.sections[object.section].copies;
@@ -117,6 +119,8 @@ void ObjectPlacer::place(const CompiledObject& object, Parent& parent, Pass& pas
     place_copy(object, grid.offset(copy), fmt::format("{}{}/{}", parent.name, object.name, copy),
                parent, pass);
   }
+  *pass.built_in.copies = copies_of_parent;
+  *pass.built_in.copy_index = index_of_parent;
 }
 
 void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3d& offset,
@@ -137,26 +141,25 @@ void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3
   }
   const Eigen::Matrix3d linear = rotation_and_scale(rotation, scale);
   Eigen::Vector3d position = object.position.evaluate(context) + offset;
-  const double radius =
-      asset ? footprint_radius(asset->box.low, asset->box.high, linear) : 0.0;
+  const double radius = asset ? footprint_radius(asset->box.low, asset->box.high, linear) : 0.0;
   if (object.scatter) scatter(*object.scatter, radius, parent.footprints, position, context);
   if (asset) parent.footprints.push_back({position.x(), position.y(), radius});
-  if (object.rest_on_ground) {
-    if (asset) position.z() -= asset->lowest_z(linear);
-    if (parent.copy == kNoIndex) {
-      position.z() += 0.5 * pass.draft.ground_curvature_per_m *
-                      (position.x() * position.x() + position.y() * position.y());
-    }
-  }
   Affine parent_from_object = Affine::Identity();
   parent_from_object.linear() = linear;
   parent_from_object.translation() = position;
+  Affine parent_from_unscaled = parent_from_object;
+  parent_from_unscaled.linear() = rotation_and_scale(rotation, Eigen::Vector3d::Ones());
+  if (object.rest_on_ground) {
+    const double lowest = asset ? asset->lowest_z(linear) : 0.0;
+    const double curvature = parent.copy == kNoIndex ? pass.draft.ground_curvature_per_m : 0.0;
+    parent_from_object = resting(parent_from_object, lowest, curvature);
+    parent_from_unscaled = resting(parent_from_unscaled, lowest, curvature);
+  }
   const Affine world_from_object = parent.world_from_parent * parent_from_object;
 
   FrameDraft::Section& section = pass.draft.sections[object.section];
   if (section.copies++ == 0) {
-    parent_from_object.linear() = rotation_and_scale(rotation, Eigen::Vector3d::Ones());
-    section.world_from_first = parent.world_from_parent * parent_from_object;
+    section.world_from_first = parent.world_from_parent * parent_from_unscaled;
   }
   if (asset) place_instance(object, asset, name, world_from_object, pass);
   if (object.objects.empty()) return;

@@ -59,6 +59,33 @@ Eigen::Vector3d on_shell(const Eigen::Vector3d& target, double distance_m, doubl
                                   distance_m * portable::sin(elevation));
 }
 
+Affine resting(const Affine& parent_from_object, double lowest_z, double curvature_per_m) {
+  Affine result = parent_from_object;
+  if (curvature_per_m == 0.0) {
+    result.translation().z() -= lowest_z;
+    return result;
+  }
+  const double x = result.translation().x();
+  const double y = result.translation().y();
+  const Eigen::Vector3d up(-curvature_per_m * x, -curvature_per_m * y, 1.0);
+  const double steepness = std::sqrt(up.x() * up.x() + up.y() * up.y());
+  const double length = std::sqrt(steepness * steepness + 1.0);
+  Eigen::Matrix3d tilt = Eigen::Matrix3d::Identity();
+  if (steepness > 0.0) {
+    // About the horizontal axis across the slope; cosine 1/length, sine steepness/length.
+    const Eigen::Vector3d axis(-up.y() / steepness, up.x() / steepness, 0.0);
+    const double c = 1.0 / length;
+    const double s = steepness / length;
+    Eigen::Matrix3d cross;
+    cross << 0, 0, axis.y(), 0, 0, -axis.x(), -axis.y(), axis.x(), 0;
+    tilt += s * cross + (1.0 - c) * cross * cross;
+  }
+  result.linear() = tilt * result.linear();
+  result.translation().z() += 0.5 * curvature_per_m * (x * x + y * y);
+  result.translation() -= lowest_z * up / length;
+  return result;
+}
+
 double footprint_radius(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
                         const Eigen::Matrix3d& linear) {
   double radius = 0.0;

@@ -23,6 +23,11 @@ Affine looking_at(const Eigen::Vector3d& position, const Eigen::Vector3d& target
 Eigen::Vector3d on_shell(const Eigen::Vector3d& target, double distance_m, double azimuth_deg,
                          double elevation_deg);
 
+/// Puts an object down: lifted by how far it reaches below its origin (lowest_z, at most 0 as a
+/// rule), and on a ground z = curvature · (x² + y²) / 2 standing upright on the slope under its
+/// origin.
+Affine resting(const Affine& parent_from_object, double lowest_z, double curvature_per_m);
+
 /// Bounding circle of an object's shadow on the ground.
 struct Footprint {
   double x = 0.0;

@@ -91,7 +91,6 @@ class Order {
   std::vector<std::size_t> sorted_;
 };
 
-
 /// "objects.bolts.variables.spin" is "objects.bolts.spin" in a graph, and "variables.scene.spread"
 /// is "spread".
 std::string graph_key(const std::string& prefix, const std::string& name) {
@@ -190,8 +189,7 @@ VariableBlock VariableBlock::compile(const std::vector<VariableConfig>& variable
 
 bool VariableBlock::take_given(const Variable& variable, EvaluationContext& context) {
   const bool is_name = variable.name != nullptr;
-  const std::size_t count =
-      is_name ? variable.given->names.size() : variable.given->numbers.size();
+  const std::size_t count = is_name ? variable.given->names.size() : variable.given->numbers.size();
   if (count == 0) return false;
   const std::size_t index = count == 1 ? 0 : context.ordinal;
   if (index >= count) {
