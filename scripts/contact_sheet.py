@@ -2,14 +2,15 @@
 """A picture of a campaign: images in one row, and below each its labels (masks by instance, tight boxes, categories).
 
     scripts/contact_sheet.py results/parts docs/images/demo.png 0 7 13 21
+    scripts/contact_sheet.py results/fig2 sheet.jpg --columns 6        all images in rows of 6, without labels
 
 Needs Debian's python3-pil and python3-numpy, which nothing else here does.
 """
 
+import argparse
 import colorsys
 import json
 import pathlib
-import sys
 
 import numpy
 from PIL import Image, ImageDraw
@@ -18,14 +19,30 @@ GAP = 4
 
 
 def main():
-    campaign, output, frames = pathlib.Path(sys.argv[1]), sys.argv[2], [int(f) for f in sys.argv[3:]]
-    columns = [labelled_pair(campaign / "frames" / f"{f // 1000:03}" / f"{f:06}") for f in frames]
-    width, height = columns[0][0].size
-    sheet = Image.new("RGB", (len(columns) * (width + GAP) - GAP, 2 * height + GAP), "white")
-    for i, pair in enumerate(columns):
-        for row, picture in enumerate(pair):
-            sheet.paste(picture, (i * (width + GAP), row * (height + GAP)))
-    sheet.save(output, optimize=True)
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("campaign", type=pathlib.Path)
+    parser.add_argument("output", type=pathlib.Path)
+    parser.add_argument("frames", type=int, nargs="*", help="default: all")
+    parser.add_argument("--columns", type=int, help="images only, so many in a row")
+    options = parser.parse_intermixed_args()
+    folders = sorted(options.campaign.glob("frames/*/*"))
+    if options.frames:
+        folders = [options.campaign / "frames" / f"{f // 1000:03}" / f"{f:06}" for f in options.frames]
+    if options.columns:
+        images = [Image.open(folder / "image.png").convert("RGB") for folder in folders]
+        rows = [images[i:i + options.columns] for i in range(0, len(images), options.columns)]
+    else:
+        rows = list(zip(*(labelled_pair(folder) for folder in folders)))
+    save_sheet(rows, options.output)
+
+
+def save_sheet(rows, output):
+    width, height = rows[0][0].size
+    sheet = Image.new("RGB", (len(rows[0]) * (width + GAP) - GAP, len(rows) * (height + GAP) - GAP), "white")
+    for row, pictures in enumerate(rows):
+        for column, picture in enumerate(pictures):
+            sheet.paste(picture, (column * (width + GAP), row * (height + GAP)))
+    sheet.save(output, optimize=True, quality=90)
 
 
 def labelled_pair(folder):
