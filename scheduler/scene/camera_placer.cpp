@@ -88,10 +88,14 @@ Affine place_camera(const CompiledConfig& config, FrameDraft& draft, EvaluationC
                         camera.azimuth_deg.evaluate(context),
                         within(camera.elevation_deg, -90, 90, "elevation_deg", context));
   }
-  set_focus(camera, draft.spec.render, (target - position).norm(), draft.spec.camera, context);
-  if (position == target) {
+  const double distance = (target - position).norm();
+  set_focus(camera, draft.spec.render, distance, draft.spec.camera, context);
+  if (distance == 0.0) {
     context.report(camera.place, "the camera stands where it looks: move position or target");
     return Affine::Identity();
+  }
+  if (!std::isfinite(distance)) {
+    context.report(camera.place, "the position or the target is too large to compute with");
   }
   return parent_of(config, draft, context) *
          looking_at(position, target, camera.roll_deg.evaluate(context));

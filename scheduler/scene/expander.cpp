@@ -110,13 +110,17 @@ FrameDraft SceneExpander::Program::draft_frame(EvaluationContext& context) {
   const Affine world_from_camera = place_camera(compiled_, draft, context);
   add_lights(compiled_, world_from_camera, draft, context);
   set_world(compiled_.world, world_from_camera, materials_, draft, context);
+  std::string beyond = part_beyond_numbers(spec);
   for (PlacedInstance& instance : draft.placed) {
     instance.spec.camera_from_object =
         relative_to_camera(world_from_camera, instance.world_from_object);
     if (!instance.spec.camera_from_object.matrix().allFinite()) {
-      context.report(Place{}, fmt::format("{}: the position of '{}' is too large to compute with",
-                                          config_.name, instance.spec.name));
+      beyond = "the position of '" + instance.spec.name + "'";
     }
+  }
+  if (!beyond.empty()) {
+    context.report(Place{config_.camera.place.file, 0, 0, ""},
+                   beyond + " has a number that is too large to compute with");
   }
   return draft;
 }

@@ -1,6 +1,7 @@
 #include "scene/frame_spec.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/sha256.h"
 
@@ -329,6 +330,34 @@ Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what
   } catch (const Json::exception& error) {
     return fail(ErrorKind::kCorrupt, "{} is not a frame spec: {}", what, error.what());
   }
+}
+
+std::string part_beyond_numbers(const FrameSpec& spec) {
+  const auto finite = [](std::initializer_list<double> numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+  };
+  const auto finite_color = [&](const Rgb& color) {
+    return finite({color[0], color[1], color[2]});
+  };
+  const CameraSpec& camera = spec.camera;
+  if (!finite({camera.focal_px[0], camera.focal_px[1], camera.center_px[0], camera.center_px[1],
+               camera.clip_start_m, camera.clip_end_m, camera.aperture_radius_m,
+               camera.focus_distance_m})) {
+    return "the camera";
+  }
+  if (!finite_color(spec.world.color) || !spec.world.map_from_camera.allFinite()) {
+    return "the world";
+  }
+  for (const MaterialSpec& material : spec.materials) {
+    if (!finite_color(material.base_color)) return "the colour of a material";
+  }
+  for (const LightSpec& light : spec.lights) {
+    if (!finite_color(light.color) || !finite({light.power}) ||
+        !light.camera_from_light.matrix().allFinite()) {
+      return "a light";
+    }
+  }
+  return {};
 }
 
 std::string frame_id(const FrameSpec& spec) { return sha256_hex(canonical_text(spec)); }

@@ -1,5 +1,8 @@
 #include "scene/ground.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/sha256.h"
 #include "geometry/mesh_buffer.h"
 #include "geometry/primitives.h"
@@ -11,6 +14,12 @@ void GroundMaker::add(const CompiledGround& ground, MaterialPicker& materials, F
   const std::array<double, 3> shape = {positive(ground.width_m, "the ground's width_m", context),
                                        positive(ground.depth_m, "the ground's depth_m", context),
                                        ground.curvature_per_m.evaluate(context)};
+  const double corner = 0.125 * shape[2] * (shape[0] * shape[0] + shape[1] * shape[1]);
+  constexpr double kFarthest = 1e9;  // metres
+  if (!(std::max({shape[0], shape[1], std::abs(corner)}) <= kFarthest)) {
+    context.report(ground.place, "the ground is too large to compute with");
+    return;
+  }
   if (shape != shape_) {
     buffer_ = std::make_shared<const std::string>(
         mesh_buffer(ground_surface(shape[0], shape[1], shape[2])));

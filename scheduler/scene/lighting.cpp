@@ -1,5 +1,7 @@
 #include "scene/lighting.h"
 
+#include <cmath>
+
 #include "base/portable_math.h"
 #include "scene/grid.h"
 #include "scene/placement.h"
@@ -28,6 +30,10 @@ void set_power(const CompiledLight& light, LightSpec& spec, EvaluationContext& c
   }
   spec.power = light.type == LightType::kSpot ? spot_watts_from_lumens(amount, y, spec.angle_rad)
                                               : watts_from_lumens(amount, y);
+  if (!std::isfinite(spec.power)) {
+    context.report(output.place(), "this takes more watts than can be computed with: the colour is "
+                                   "too dark, or the cone of the spot too narrow");
+  }
 }
 
 LightSpec one_light(const CompiledLight& light, const Eigen::Vector3d& offset,
@@ -37,7 +43,11 @@ LightSpec one_light(const CompiledLight& light, const Eigen::Vector3d& offset,
   spec.kind = static_cast<LightKind>(light.type);
   const Eigen::Vector3d position = light.position.evaluate(context) + offset;
   Eigen::Vector3d target = light.target_below ? position : light.target.evaluate(context);
-  if (position == target) target -= Eigen::Vector3d::UnitZ();
+  const double distance = (target - position).norm();
+  if (distance == 0.0) target = position - Eigen::Vector3d::UnitZ();
+  if (!std::isfinite(distance)) {
+    context.report(light.place, "the position or the target is too large to compute with");
+  }
   spec.camera_from_light = relative_to_camera(world_from_camera, looking_at(position, target, 0.0));
   spec.color = light.color.evaluate(context);
   if (light.type == LightType::kPoint || light.type == LightType::kSpot) {
