@@ -1,7 +1,9 @@
 #include "geometry/collision.h"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <vector>
 
 #include <CGAL/AABB_traits.h>
@@ -65,14 +67,48 @@ bool inside(const Point& point, const SolidMesh::Tree& solid) {
   return solid.tree.number_of_intersected_primitives(ray) % 2 == 1;
 }
 
+/// How many metres a unit of an instance's own space is, at most and at least.
+struct Stretch {
+  explicit Stretch(const Eigen::Affine3d& map) {
+    const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::Matrix3d>(map.linear()).singularValues();
+    most = values(0);
+    least = values(2);
+  }
+  bool same_everywhere() const { return most <= least * (1.0 + 1e-9); }
+  double most = 1.0;
+  double least = 1.0;
+};
+
+/// Whether a point, in the space of `b`, is nearer than gap_m to its surface in the world.
+bool is_near(const Point& point, const SolidInstance& b, const Stretch& stretch, double gap_m) {
+  const SolidMesh::Tree& solid = b.mesh->tree();
+  if (stretch.same_everywhere()) {
+    const double gap = gap_m / stretch.most;
+    return solid.tree.squared_distance(point) < gap * gap;
+  }
+  // Distances in the space of b are not those of the world: only what may be near is measured.
+  const double reach = gap_m / stretch.least;
+  const Kernel::Vector_3 corner(reach, reach, reach);
+  std::vector<AabbTree::Primitive_id> candidates;
+  solid.tree.all_intersected_primitives(Kernel::Iso_cuboid_3(point - corner, point + corner),
+                                        std::back_inserter(candidates));
+  const auto in_world = [&](const Point& p) {
+    return to_point(b.world_from_object * to_vector(p));
+  };
+  return std::any_of(candidates.begin(), candidates.end(), [&](const auto& triangle) {
+    const Triangle moved(in_world((*triangle)[0]), in_world((*triangle)[1]),
+                         in_world((*triangle)[2]));
+    return CGAL::squared_distance(in_world(point), moved) < gap_m * gap_m;
+  });
+}
+
 /// Asks `b` of every triangle of `a` that may be near it, in the object space of b.
 bool meets(const SolidInstance& a, const SolidInstance& b, double gap_m) {
   const Eigen::Affine3d b_from_a = b.world_from_object.inverse() * a.world_from_object;
   const SolidMesh::Tree& tree_a = a.mesh->tree();
   const SolidMesh::Tree& tree_b = b.mesh->tree();
-  // The gap in b's units, by the longest that such a unit is in the world.
-  const Eigen::Matrix3d linear = b.world_from_object.linear();
-  const double gap = gap_m / Eigen::JacobiSVD<Eigen::Matrix3d>(linear).singularValues()(0);
+  if (tree_a.triangles.empty() || tree_b.triangles.empty()) return false;
+  const Stretch stretch(b.world_from_object);
   for (const Triangle& triangle : tree_a.triangles) {
     std::array<Point, 3> corners;
     BoundingBox box{Eigen::Vector3d::Constant(1e300), Eigen::Vector3d::Constant(-1e300)};
@@ -82,16 +118,15 @@ bool meets(const SolidInstance& a, const SolidInstance& b, double gap_m) {
       box.low = box.low.cwiseMin(corner);
       box.high = box.high.cwiseMax(corner);
     }
-    if (!overlap(box, b.box, gap)) continue;
+    if (!overlap(box, b.box, gap_m / stretch.least)) continue;
     const Triangle moved(corners[0], corners[1], corners[2]);
     if (!moved.is_degenerate() && tree_b.tree.do_intersect(moved)) return true;
-    if (gap <= 0.0) continue;
+    if (gap_m <= 0.0) continue;
     for (const Point& corner : corners) {
-      if (tree_b.tree.squared_distance(corner) < gap * gap) return true;
+      if (is_near(corner, b, stretch, gap_m)) return true;
     }
   }
-  return !tree_a.triangles.empty() &&
-         inside(to_point(b_from_a * to_vector(tree_a.triangles.front()[0])), tree_b);
+  return inside(to_point(b_from_a * to_vector(tree_a.triangles.front()[0])), tree_b);
 }
 
 }  // namespace
