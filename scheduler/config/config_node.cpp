@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "base/nearest_name.h"
+#include "config/config_text.h"
 
 namespace seedframe {
 namespace {
@@ -67,8 +68,15 @@ class TreeCheck {
 };
 
 Result<YAML::Node> load(const std::string& text, const std::string& file) {
+  if (Status readable = check_config_text(text, file); !readable) return forward_error(readable);
   try {
-    return YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    for (std::size_t i = 1; i < documents.size(); ++i) {
+      if (documents[i].IsNull()) continue;
+      return fail(ErrorKind::kInput, "{}: a config is one YAML document, and here a second begins",
+                  yaml_place(file, documents[i].Mark(), "").text());
+    }
+    return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::ParserException& error) {
     return fail(ErrorKind::kInput, "{}: this is not YAML: {}",
                 yaml_place(file, error.mark, "").text(), error.msg);

@@ -1,12 +1,12 @@
 #include "config/csv_column.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "base/files.h"
 #include "base/nearest_name.h"
+#include "config/config_text.h"
 
 namespace seedframe {
 namespace {
@@ -84,13 +84,13 @@ Result<std::vector<double>> read_csv_column(const std::filesystem::path& file,
     if (fields.size() == 1 && trimmed(fields[0]).empty()) continue;  // an empty line
     const std::string_view cell =
         index < fields.size() ? trimmed(fields[index]) : std::string_view();
-    double value = 0.0;
-    const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) {
+    const std::optional<double> value = parse_double(cell);
+    if (!value || !std::isfinite(*value)) {
+      constexpr std::size_t kMostShown = 60;
       return fail(ErrorKind::kInput, "{}:{}: column '{}' wants a finite number, found '{}'",
-                  file.string(), row, column, cell);
+                  file.string(), row, column, cell.substr(0, kMostShown));
     }
-    values.push_back(value);
+    values.push_back(*value);
   }
   if (values.empty()) return fail(ErrorKind::kInput, "{} has no rows", file.string());
   std::sort(values.begin(), values.end());

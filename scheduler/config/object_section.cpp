@@ -139,6 +139,9 @@ std::vector<MaterialConfig> read_materials(SectionReader& campaign) {
   std::vector<MaterialConfig> materials;
   const auto node = campaign.find("materials");
   if (!node) return materials;
+  if (!node->is_map() && !node->is_null()) {
+    campaign.errors().add(node->place(), "expected a mapping, found " + node->description());
+  }
   for (const auto& [name, body] : node->entries()) {
     materials.push_back(read_material(name, body, campaign.errors()));
   }

@@ -32,6 +32,7 @@ SweepAxis read_axis(const std::string& name, const ConfigNode& node, Diagnostics
       point.emplace(name, read_swept_value(item, errors));
       continue;
     }
+    if (item.entries().empty()) errors.add(item.place(), "expected at least one variable");
     for (const auto& [variable, value] : item.entries()) {
       if (!is_identifier(variable)) {
         errors.add(value.place(),

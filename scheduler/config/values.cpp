@@ -2,9 +2,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include "base/nearest_name.h"
+#include "config/config_text.h"
 #include "config/csv_column.h"
 
 namespace seedframe {
@@ -32,18 +32,6 @@ std::vector<std::string> distribution_names() {
   std::vector<std::string> names = {"constant", "choice", "mixture", "empirical", "sobol"};
   for (const DistributionSyntax& syntax : distributions()) names.emplace_back(syntax.name);
   return names;
-}
-
-std::optional<double> parse_double(const std::string& text) {
-  const char* begin = text.data();
-  const char* end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (stop != end || begin == end) return std::nullopt;
-  // Too large is infinite, too small is 0: strtod tells them apart.
-  if (error == std::errc::result_out_of_range) return std::strtod(text.c_str(), nullptr);
-  return error == std::errc() ? std::optional(value) : std::nullopt;
 }
 
 // YAML writes these for what has no place in a scene.
@@ -283,13 +271,16 @@ ColorSource read_color(const ConfigNode& node, Diagnostics& errors) {
       color.components[0] = read_number(*kelvin, errors);
       return color;
     }
-    const auto hsv = node.find("hsv");
-    const auto rgb = node.find("rgb");
-    if (hsv) color.model = ColorModel::kHsv;
-    if (hsv || rgb) {
-      color.components = read_vector(hsv ? *hsv : *rgb, errors).components;
+    if (const auto hsv = node.find("hsv")) {
+      color.model = ColorModel::kHsv;
+      if (hsv->items().size() == 3) {
+        color.components = read_vector(*hsv, errors).components;
+      } else {
+        errors.add(hsv->place(), "expected [hue, saturation, value], found " + hsv->description());
+      }
       return color;
     }
+    if (const auto rgb = node.find("rgb"); rgb && !rgb->is_map()) return read_color(*rgb, errors);
   }
   if (node.is_scalar() && !node.text().empty()) {
     color.model = ColorModel::kFormula;

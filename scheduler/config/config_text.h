@@ -1,0 +1,20 @@
+// What is looked at in texts before anybody makes sense of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace seedframe {
+
+/// Errors (kInput, with line and column): bytes that are not UTF-8, which no JSON could hold later,
+/// and control characters other than tabs and ends of lines: to yaml-cpp some of them are the end.
+Status check_config_text(std::string_view text, const std::string& file);
+
+/// A decimal number such as "3", "-0.5", "+2", "1e-3", or none. One that is too large is infinite,
+/// one that is too small is 0; "nan" and "inf" are numbers here.
+std::optional<double> parse_double(std::string_view text);
+
+}  // namespace seedframe
