@@ -53,18 +53,18 @@ ScatterConfig read_scatter(const ConfigNode& node, Diagnostics& errors) {
 }
 
 HiddenFrom read_hidden_from(SectionReader& section) {
-  static const std::vector<std::string> kNames = {"camera", "diffuse", "glossy", "transmission",
-                                                  "shadow"};
+  static const std::vector<std::string> names = {"camera", "diffuse", "glossy", "transmission",
+                                                 "shadow"};
   HiddenFrom hidden;
   const std::array<bool*, 5> flags = {&hidden.camera, &hidden.diffuse, &hidden.glossy,
                                       &hidden.transmission, &hidden.shadow};
   for (const std::string& text : section.texts("hidden_from")) {
-    const auto found = std::find(kNames.begin(), kNames.end(), text);
-    if (found == kNames.end()) {
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found == names.end()) {
       section.errors().add(section.node().find("hidden_from")->place(),
-                           "unknown kind of ray '" + text + "'" + did_you_mean(text, kNames));
+                           "unknown kind of ray '" + text + "'" + did_you_mean(text, names));
     } else {
-      *flags[static_cast<std::size_t>(found - kNames.begin())] = true;
+      *flags[static_cast<std::size_t>(found - names.begin())] = true;
     }
   }
   return hidden;

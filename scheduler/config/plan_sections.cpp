@@ -65,14 +65,14 @@ void collect_names(const std::vector<ObjectConfig>& objects, std::vector<std::st
 }
 
 ConstraintKind read_kind(SectionReader& section) {
-  static const std::vector<std::string> kNames = {"visible", "in_view", "pixels", "apart",
-                                                  "distance"};
+  static const std::vector<std::string> kinds = {"visible", "in_view", "pixels", "apart",
+                                                 "distance"};
   const auto node = section.require("type");
   const std::string text = node && node->is_scalar() ? node->text() : "";
-  const auto found = std::find(kNames.begin(), kNames.end(), text);
-  if (found != kNames.end()) return static_cast<ConstraintKind>(found - kNames.begin());
+  const auto found = std::find(kinds.begin(), kinds.end(), text);
+  if (found != kinds.end()) return static_cast<ConstraintKind>(found - kinds.begin());
   if (node) {
-    section.errors().add(node->place(), "unknown type of constraint" + did_you_mean(text, kNames));
+    section.errors().add(node->place(), "unknown type of constraint" + did_you_mean(text, kinds));
   }
   return ConstraintKind::kVisible;
 }

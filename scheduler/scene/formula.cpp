@@ -430,13 +430,13 @@ class Builder {
   }
 
   std::size_t member(const FormulaNode& node) {
-    static const std::map<std::string, std::size_t> kComponents = {
+    static const std::map<std::string, std::size_t> components = {
         {"x", 0}, {"y", 1}, {"z", 2}, {"r", 0}, {"g", 1}, {"b", 2}, {"0", 0}, {"1", 1}, {"2", 2}};
     const std::size_t input = build(node.children[0]);
     if (!error_.empty()) return 0;
-    const auto found = kComponents.find(node.text);
-    if (found == kComponents.end() || type_of(input).type != ValueType::kVector) {
-      refuse(found == kComponents.end()
+    const auto found = components.find(node.text);
+    if (found == components.end() || type_of(input).type != ValueType::kVector) {
+      refuse(found == components.end()
                  ? "'" + node.text + "' is no component of a vector (there are: x, y, z)"
                  : "only a vector has a component " + node.text);
       return 0;

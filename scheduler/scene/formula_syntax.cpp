@@ -151,13 +151,13 @@ class Parser {
   }
 
   FormulaNode binary(std::size_t level) {
-    static const std::array<std::vector<std::string_view>, 5> kLevels = {
+    static const std::array<std::vector<std::string_view>, 5> levels = {
         {{"||"}, {"&&"}, {"==", "!=", "<", "<=", ">", ">="}, {"+", "-"}, {"*", "/"}}};
-    if (level == kLevels.size()) return unary();
+    if (level == levels.size()) return unary();
     FormulaNode left = binary(level + 1);
     for (bool found = true; found;) {
       found = false;
-      for (const std::string_view symbol : kLevels[level]) {
+      for (const std::string_view symbol : levels[level]) {
         if (!at(symbol)) continue;
         FormulaNode node{FormulaNode::Kind::kOperator, std::string(symbol), 0.0, {}};
         advance();

@@ -31,8 +31,9 @@ void set_power(const CompiledLight& light, LightSpec& spec, EvaluationContext& c
   spec.power = light.type == LightType::kSpot ? spot_watts_from_lumens(amount, y, spec.angle_rad)
                                               : watts_from_lumens(amount, y);
   if (!std::isfinite(spec.power)) {
-    context.report(output.place(), "this takes more watts than can be computed with: the colour is "
-                                   "too dark, or the cone of the spot too narrow");
+    context.report(output.place(),
+                   "this takes more watts than can be computed with: the colour is "
+                   "too dark, or the cone of the spot too narrow");
   }
 }
 

@@ -110,9 +110,9 @@ bool is_vector_formula(const NumberSource& source, const CompileScope& scope) {
 
 void refuse_taken_name(const std::string& name, const Place& place, const CompileScope& scope,
                        Diagnostics& errors) {
-  static const std::array<std::string_view, 5> kBuiltIn = {"pi", "scene_index", "frame_index",
+  static const std::array<std::string_view, 5> built_in = {"pi", "scene_index", "frame_index",
                                                            "copy_index", "copies"};
-  if (std::find(kBuiltIn.begin(), kBuiltIn.end(), name) != kBuiltIn.end()) {
+  if (std::find(built_in.begin(), built_in.end(), name) != built_in.end()) {
     errors.add(place, "'" + name + "' is built in: a variable needs another name");
   } else if (scope.symbols.contains(name)) {
     errors.add(place, "the name '" + name + "' is taken by another variable");
