@@ -68,10 +68,10 @@ struct VisibilityScene::Scene {
     const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, instance.mesh->tree().scene);
     std::array<float, 12> columns{};
+    std::size_t next = 0;
     for (int column = 0; column < 4; ++column) {
       for (int row = 0; row < 3; ++row) {
-        columns[static_cast<std::size_t>(3 * column + row)] =
-            static_cast<float>(instance.camera_from_object(row, column));
+        columns[next++] = static_cast<float>(instance.camera_from_object(row, column));
       }
     }
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
