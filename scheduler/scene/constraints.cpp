@@ -75,6 +75,7 @@ bool ConstraintChecker::is_met(const CompiledConstraint& constraint, const Frame
   const double least = constraint.at_least.evaluate(context);
   const std::vector<std::size_t> indices = selected(constraint, draft);
   std::vector<const PlacedInstance*> instances;
+  instances.reserve(indices.size());
   for (const std::size_t i : indices) instances.push_back(&draft.placed[i]);
   switch (constraint.kind) {
     case ConstraintKind::kDistance:
@@ -104,6 +105,7 @@ bool ConstraintChecker::is_met(const CompiledConstraint& constraint, const Frame
 bool ConstraintChecker::all_apart(const std::vector<const PlacedInstance*>& instances,
                                   double gap_m) {
   std::vector<SolidInstance> solids;
+  solids.reserve(instances.size());
   for (const PlacedInstance* instance : instances) {
     solids.push_back(
         {&solid_mesh(*instance->asset), instance->asset->box, instance->world_from_object});

@@ -318,7 +318,7 @@ Eigen::Vector3d VectorDraw::evaluate(EvaluationContext& context) const {
     return {components_[0].evaluate(context), components_[1].evaluate(context),
             components_[2].evaluate(context)};
   }
-  const Eigen::Vector3d value = formula_->vector();
+  Eigen::Vector3d value = formula_->vector();
   if (value.allFinite()) return value;
   context.report(place_, fmt::format("the value is [{}, {}, {}], but a number must be finite",
                                      value.x(), value.y(), value.z()));

@@ -160,11 +160,11 @@ FormulaValue rotated(Values a, Types types) {
   const double angle = radians_of(a[1], types[1]);
   const double c = portable::cos(angle);
   const double s = portable::sin(angle);
-  constexpr std::size_t u = (Axis + 1) % 3;
-  constexpr std::size_t v = (Axis + 2) % 3;
+  constexpr std::size_t kU = (Axis + 1) % 3;
+  constexpr std::size_t kV = (Axis + 2) % 3;
   FormulaValue result = a[0];
-  result[u] = c * a[0][u] - s * a[0][v];
-  result[v] = s * a[0][u] + c * a[0][v];
+  result[kU] = c * a[0][kU] - s * a[0][kV];
+  result[kV] = s * a[0][kU] + c * a[0][kV];
   return result;
 }
 
