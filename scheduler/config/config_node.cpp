@@ -128,6 +128,7 @@ Status apply(const YAML::Node& root, const Override& change) {
 }
 
 constexpr int kMostBases = 8;
+constexpr std::uintmax_t kLargestBase = 16u << 20;
 
 /// The config that `root`'s key `base` names, and in `overrides`, before what is there already,
 /// what `root` replaces in it.
@@ -157,10 +158,17 @@ Result<std::string> read_base(const YAML::Node& root, const std::string& file,
   const YAML::Node base = root["base"];
   if (!base.IsScalar()) return fault(base, "base", "expected the path of a config");
   base_file = std::filesystem::path(file).parent_path() / base.Scalar();
-  Result<std::string> text = read_file(base_file);
-  if (!text) {
-    return fault(base, "base", text.error().message + " (paths start at the config's folder)");
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(base_file, missing)) {
+    return fault(
+        base, "base",
+        "there is no config " + base_file.string() + " (paths start at the config's folder)");
   }
+  if (std::filesystem::file_size(base_file, missing) > kLargestBase) {
+    return fault(base, "base", base_file.string() + " is larger than 16 MiB");
+  }
+  Result<std::string> text = read_file(base_file);
+  if (!text) return fault(base, "base", text.error().message);
   overrides.insert(overrides.begin(), own.begin(), own.end());
   return text;
 }

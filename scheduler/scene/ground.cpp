@@ -21,8 +21,12 @@ void GroundMaker::add(const CompiledGround& ground, MaterialPicker& materials, F
     return;
   }
   if (shape != shape_) {
-    buffer_ = std::make_shared<const std::string>(
-        mesh_buffer(ground_surface(shape[0], shape[1], shape[2])));
+    const Mesh mesh = ground_surface(shape[0], shape[1], shape[2]);
+    if (const Status seen = check_mesh(mesh, "the ground"); !seen) {
+      context.report(ground.place, seen.error().message);
+      return;
+    }
+    buffer_ = std::make_shared<const std::string>(mesh_buffer(mesh));
     sha256_ = sha256_hex(*buffer_);
     shape_ = shape;
   }

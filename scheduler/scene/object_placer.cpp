@@ -1,6 +1,7 @@
 #include "scene/object_placer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/nearest_name.h"
@@ -56,6 +57,14 @@ std::uint32_t copy_for_draws(std::uint32_t parent, std::uint32_t copy, const Pla
     return 0;
   }
   return parent * kMostCopiesInGroup + copy;
+}
+
+/// Numbers within which neither a pose nor its inverse leaves what doubles can hold, squared.
+bool can_be_computed_with(const Affine& pose) {
+  constexpr double kLargest = 1e12;          // metres
+  constexpr double kSmallestVolume = 1e-36;  // m³ of a cubic metre
+  return pose.matrix().cwiseAbs().maxCoeff() <= kLargest &&
+         std::abs(pose.linear().determinant()) >= kSmallestVolume;
 }
 
 }  // namespace
@@ -184,6 +193,11 @@ void ObjectPlacer::place_instance(const CompiledObject& object,
   instance.spec.mesh = asset->buffer_sha256;
   instance.spec.materials = slot_materials(object, *asset, pass);
   instance.spec.hidden_from = object.hidden_from;
+  if (!can_be_computed_with(world_from_object)) {
+    pass.context.report(object.place,
+                        fmt::format("'{}' is too large, too small or too far away to compute with",
+                                    name));
+  }
   instance.world_from_object = world_from_object;
   instance.centre = world_from_object * asset->box.centre();
   instance.section = object.section;
