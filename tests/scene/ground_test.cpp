@@ -48,6 +48,9 @@ TEST(Ground, HasBounds) {
        {"width_m: 1e300", "depth_m: 1e39", "curvature_per_m: 1e300", "curvature_per_m: -1e300"}) {
     EXPECT_THAT(scene_error(scene(huge)), HasSubstr("ground: the ground is too large")) << huge;
   }
+  for (const char* tiny : {"width_m: 1e-300", "depth_m: 1e-320"}) {
+    EXPECT_THAT(scene_error(scene(tiny)), HasSubstr("scene.yaml:2:9: ground: the ground")) << tiny;
+  }
 }
 
 }  // namespace

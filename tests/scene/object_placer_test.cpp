@@ -228,6 +228,21 @@ TEST(Scale, OneDrawnNumberIsOneDrawForAllAxes) {
               1e-12);
 }
 
+TEST(Scale, AndPlaceHaveLimits) {
+  for (const char* keys : {"scale: 1e20", "scale: 1e-20", "scale: [1e-300, 1, 1]", "scale: 1e308",
+                           "position: [1e13, 0, 0]", "position: [1e308, -1e308, 0]"}) {
+    const std::string constraint = "constraints: {c: {type: apart, at_least: 1mm}}\n";
+    EXPECT_THAT(scene_error(scene(
+                    std::string("  o: {asset: cube, category: none, count: 2, ") + keys + "}\n",
+                    constraint)),
+                HasSubstr("objects.o: 'o/0' is too large, too small or too far away"))
+        << keys;
+  }
+  EXPECT_EQ(scene_error(scene("  o: {asset: cube, category: none, scale: 1e-6, position: [1e9, 0, "
+                              "0]}\n")),
+            "(no error)");
+}
+
 TEST(Resting, FollowsTheCurvatureOfTheGround) {
   const auto frame = first_frame(
       scene("  o: {asset: cube, category: none, rest_on_ground: true, position: [3, 4, 1]}\n",
