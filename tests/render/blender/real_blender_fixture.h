@@ -198,6 +198,13 @@ class RealBlender : public testing::Test, public RenderClient {
     const RenderSettings& settings = specs.at(job.frame).render;
     auto read = read_passes(folder / "passes # 100%.exr", {settings.width, settings.height,
                                                            settings.depth, settings.normal, 32767});
+    const std::filesystem::path sharp_file = folder / "passes # 100%.exr.sharp";
+    if (std::filesystem::exists(sharp_file)) {
+      auto in_focus = read_passes(
+          sharp_file, {settings.width, settings.height, settings.depth, settings.normal, 32767});
+      if (in_focus) sharp[job.frame] = std::move(*in_focus);
+      std::filesystem::remove(sharp_file);
+    }
     if (read) passes[job.frame] = std::move(*read);
     pool->post_verdict(job, read ? Status() : Status(forward_error(read)));
   }
@@ -211,6 +218,7 @@ class RealBlender : public testing::Test, public RenderClient {
   std::string smooth, flat, halves;
   std::map<std::int64_t, FrameSpec> specs;
   std::map<std::int64_t, FramePasses> passes;
+  std::map<std::int64_t, FramePasses> sharp;  ///< of frames with depth of field
   std::map<std::int64_t, std::string> failures;
   int frames_per_worker = 0;
   ReadyMessage ready;
@@ -242,7 +250,7 @@ inline FrameSpec RealBlender::varied(std::int64_t frame) const {
   }
   spec.world.color = {draw(0, 1), draw(0, 1), draw(0, 1)};
   spec.world.strength = draw(0, 1);
-  if (pick(2) == 1) {
+  if (pick(2) == 1 && !textures.empty()) {
     spec.world.hdri = textures.begin()->first;
     spec.world.map_from_camera =
         Eigen::AngleAxisd(draw(0, 3), Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -270,10 +278,10 @@ inline FrameSpec RealBlender::varied(std::int64_t frame) const {
     const std::string mesh = std::array{smooth, flat, halves}[static_cast<std::size_t>(pick(3))];
     const std::vector<int> slots = {pick(4), pick(4)};
     const std::size_t used = mesh == halves ? 2 : 1;
-    spec.instances.push_back(instance(
-        fmt::format("thing/{}", i), i, mesh,
-        {slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(used)},
-        placed(draw(-1.5, 1.5), draw(-1, 1), draw(-6, -3), draw(0.3, 1), draw(0, 3))));
+    spec.instances.push_back(
+        instance(fmt::format("thing/{}", i), i, mesh,
+                 {slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(used)},
+                 placed(draw(-1.5, 1.5), draw(-1, 1), draw(-6, -3), draw(0.3, 1), draw(0, 3))));
     spec.instances.back().hidden_from.glossy = pick(2) == 1;
     spec.instances.back().hidden_from.shadow = pick(2) == 1;
   }
