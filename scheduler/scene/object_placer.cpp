@@ -194,9 +194,9 @@ void ObjectPlacer::place_instance(const CompiledObject& object,
   instance.spec.materials = slot_materials(object, *asset, pass);
   instance.spec.hidden_from = object.hidden_from;
   if (!can_be_computed_with(world_from_object)) {
-    pass.context.report(object.place,
-                        fmt::format("'{}' is too large, too small or too far away to compute with",
-                                    name));
+    pass.context.report(
+        object.place,
+        fmt::format("'{}' is too large, too small or too far away to compute with", name));
   }
   instance.world_from_object = world_from_object;
   instance.centre = world_from_object * asset->box.centre();
