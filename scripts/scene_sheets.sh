@@ -1,17 +1,21 @@
 #!/bin/sh
 # Contact sheets of the papers' scenes, into results/scenes: a few frames of each config, smaller and with fewer samples
 # than the configs ask for. Takes about 10 minutes on two idle cores. Needs Debian's python3-pil.
+#
+#   scripts/scene_sheets.sh [NAME…]    NAME: only these sheets, such as robocup_fig2
 set -eu
 cd "$(dirname "$0")/.."
 seedframe=build/release/seedframe
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p results/scenes
+wanted=" $* "
 
 # sheet NAME COLUMNS CONFIG ARGUMENTS…: submits and puts all frames into one picture.
 sheet() {
   name=$1 columns=$2 config=$3
   shift 3
+  case $wanted in "  " | *" $name "*) ;; *) return ;; esac
   "$seedframe" submit "configs/$config.yaml" -o "$work/$name" --quiet "$@"
   /usr/bin/python3 scripts/contact_sheet.py "$work/$name" "results/scenes/$name.jpg" --columns "$columns"
 }

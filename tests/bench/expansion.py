@@ -19,7 +19,7 @@ HOME = pathlib.Path(__file__).resolve().parents[2]
 BUILD = HOME / "build" / "release"
 # Benchmark, what it is, least frames a second (none: only told).
 SPEEDS = [
-    ("simple_config", "one object, one light, a ground, a camera around", 50_000),
+    ("simple_config", "one object, one light, a camera around it", 50_000),
     ("robocup_without_visibility_test", "`configs/robocup_spl.yaml` without its constraint", 5_000),
     ("robocup_with_visibility_test", "the same with it: the ball at least half visible", None),
 ]
