@@ -39,26 +39,12 @@ Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   });
 }
 
-/// All frames come into the store in one transaction: a store without frames is what an interrupted
-/// create_campaign left.
-bool is_unfinished(const fs::path& folder) {
-  std::error_code error;
-  const fs::path path = CampaignFiles(folder).store();
-  if (!fs::exists(path, error)) return false;
-  const Result<JobStore> store = JobStore::open(path);
-  if (!store) return false;
-  const auto counts = store->counts();
-  return counts && counts->total() == 0;
-}
-
 }  // namespace
 
 Result<Campaign> create_campaign(const fs::path& folder, PreparedCampaign& prepared) {
   std::error_code error;
   const bool existed = fs::exists(folder, error);
-  if (existed && is_unfinished(folder)) {
-    remove_campaign(folder);
-  } else if (existed && (!fs::is_directory(folder, error) || !fs::is_empty(folder, error))) {
+  if (existed && (!fs::is_directory(folder, error) || !fs::is_empty(folder, error))) {
     const bool is_campaign = fs::exists(CampaignFiles(folder).store(), error);
     return fail(ErrorKind::kInput, "{} {}", folder.string(),
                 is_campaign ? "holds a campaign already: 'seedframe resume' goes on with it, or "
@@ -67,17 +53,11 @@ Result<Campaign> create_campaign(const fs::path& folder, PreparedCampaign& prepa
   }
   const CampaignFiles files(folder);
   if (Status written = write_campaign(files, prepared); !written) {
-    remove_campaign(folder);
-    if (existed) fs::create_directory(folder, error);
+    if (!existed) fs::remove_all(folder, error);
     // The user chose this place, so it is for the user to mend.
     return tl::unexpected(Error{ErrorKind::kInput, written.error().message});
   }
   return open_campaign(folder);
-}
-
-void remove_campaign(const fs::path& folder) {
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
 }
 
 Result<Campaign> open_campaign(const fs::path& folder) {

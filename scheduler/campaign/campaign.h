@@ -20,12 +20,9 @@ struct Campaign {
 };
 
 /// Makes the folder, campaign.yaml and the store with every frame pending. The folder must not
-/// exist, be empty, or hold what an interrupted create_campaign left (else kInput). Every frame is
-/// expanded; nothing is left behind when one cannot be, or when anything else fails.
+/// exist, or be empty (kInput). Every frame is expanded on its way into the store, so memory does
+/// not grow with their number; a folder that was made here goes again when something fails.
 Result<Campaign> create_campaign(const std::filesystem::path& folder, PreparedCampaign& prepared);
-
-/// Takes back a create_campaign of which nothing has been rendered.
-void remove_campaign(const std::filesystem::path& folder);
 
 /// Opens what create_campaign made. Not a campaign, or damaged: an error that says so.
 Result<Campaign> open_campaign(const std::filesystem::path& folder);

@@ -57,22 +57,18 @@ int submit(const SubmitArguments& arguments) {
                                : std::filesystem::path(arguments.output);
   const std::int64_t all = prepared->config.frame_count();
   const std::int64_t wanted = arguments.frames > 0 ? std::min(arguments.frames, all) : all;
+  // Every frame is expanded once before anything is written: a mistake in the last one leaves no
+  // folder behind that somebody would have to take away again.
+  const Result<CampaignSize> size = expand_all(prepared->expander, {.id = false});
+  if (!size) return report(size.error());
+  const Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
+  if (!setup) return report(setup.error());
   if (arguments.dry_run) {
-    const Result<CampaignSize> size = expand_all(prepared->expander, {.id = false});
-    if (!size) return report(size.error());
-    const Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
-    if (!setup) return report(setup.error());
     print_plan(*prepared, *setup, wanted, folder);
     return kExitOk;
   }
-  // First what may be wrong with the config, which shows while it is expanded into the store.
   Result<Campaign> campaign = create_campaign(folder, *prepared);
   if (!campaign) return report(campaign.error());
-  const Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
-  if (!setup) {
-    remove_campaign(folder);
-    return report(setup.error());
-  }
   const Result<CampaignLock> lock = CampaignLock::acquire(campaign->files.lock());
   if (!lock) return report(lock.error());
   std::vector<PendingFrame> pending;
