@@ -19,7 +19,7 @@ _SCALARS = {
     "ior": "IOR",
     "clearcoat": "Clearcoat",
 }
-TEXTURES = ("color", "metallic", "normal", "roughness")
+TEXTURES = ("alpha", "color", "metallic", "normal", "roughness")
 
 
 class MaterialPool:
@@ -108,5 +108,7 @@ class _Tree:
             normal_map.uv_map = "UVMap"
             self._links.new(color, normal_map.inputs["Color"])
             self._links.new(normal_map.outputs["Normal"], self._input("Normal"))
+        elif kind == "alpha":
+            self._links.new(color, self._input("Alpha"))
         else:
             self._links.new(color, self._input(_SCALARS[kind]))

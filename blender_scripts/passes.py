@@ -61,6 +61,7 @@ def _set_constants(scene):
     view_layer = scene.view_layers[0]
     view_layer.use_pass_combined = True
     view_layer.use_pass_object_index = True
+    view_layer.pass_alpha_threshold = 0.5  # where a texture cuts holes, labels look through them
 
 
 def _set_cycles(cycles):

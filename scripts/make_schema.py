@@ -149,7 +149,7 @@ FORMS = {
 
 def form_of(words):
     """The schema for a cell of the column "value"; None for a section, whose keys have rows of their own."""
-    if words in ("section", "named sections"):
+    if words in ("section", "named sections", "section, or its source"):
         return None
     if words in FORMS:
         return dict(FORMS[words])
@@ -254,8 +254,10 @@ def build(keys):
 
     def entry(key):
         form = form_of(key.value)
-        if key.value == "section":
+        if key.value.startswith("section"):
             form = section(key.path)
+        if key.value == "section, or its source":
+            form = {"anyOf": [form, form["properties"]["source"]]}
         elif key.value == "named sections":
             form = ref(key.path)
         return key.schema(form)

@@ -13,7 +13,7 @@ packages="
   libboost-dev libcgal-dev libcli11-dev libdraco-dev libeigen3-dev libembree-dev libexpected-dev
   libfmt-dev
   libopencolorio-dev libopenexr-dev libpng-dev librandom123-dev libsqlite3-dev libssl-dev
-  libyaml-cpp-dev nlohmann-json3-dev
+  libtbb-dev libyaml-cpp-dev nlohmann-json3-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev"
 
 missing=""

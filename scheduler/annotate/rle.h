@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "annotate/mask.h"
@@ -19,6 +22,9 @@ struct Rle {
 
 Rle encode_rle(const Mask& mask);
 
+/// Of a mask that is an array of 0 and 1, row by row.
+Rle encode_rle(std::span<const std::uint8_t> mask, int width, int height);
+
 /// Number of mask pixels: the sum of every second run.
 std::int64_t rle_area(const Rle& rle);
 
@@ -26,5 +32,8 @@ std::int64_t rle_area(const Rle& rle);
 /// written; each number in groups of five bits, lowest first, two's complement; a character is
 /// 48 + the five bits + 32 if another group follows. Equal to the string that pycocotools writes.
 std::string rle_string(const Rle& rle);
+
+/// Reads what rle_string wrote; none if it is not that, or does not add up to width · height.
+std::optional<Rle> rle_from_string(std::string_view text, int width, int height);
 
 }  // namespace seedframe

@@ -19,6 +19,10 @@ fs::path CampaignFiles::attempt(std::int64_t frame, int attempt) const {
   return work() / "attempts" / fmt::format("{}-{}", frame_stem(frame), attempt);
 }
 
+fs::path CampaignFiles::rejected(std::int64_t frame) const {
+  return root() / "rejected" / frame_stem(frame);
+}
+
 fs::path CampaignFiles::frame(std::int64_t frame) const {
   return frames() / fmt::format("{:03}", frame / 1000) / frame_stem(frame);
 }

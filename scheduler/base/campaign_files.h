@@ -22,6 +22,8 @@ class CampaignFiles {
   std::filesystem::path logs() const { return root_ / "logs"; }
   std::filesystem::path worker_log(int worker) const;
   std::filesystem::path exports() const { return root_ / "exports"; }
+  /// What was rendered of a frame that is not as its twin sees it, for inspection.
+  std::filesystem::path rejected(std::int64_t frame) const;
   /// Scratch space: mesh buffers for the workers and attempts under way. Gone when nothing runs.
   std::filesystem::path work() const { return root_ / "work"; }
   std::filesystem::path mesh_buffer(const std::string& sha256) const;
@@ -45,6 +47,10 @@ inline constexpr const char* kDepth = "depth.exr";
 inline constexpr const char* kNormal = "normal.exr";
 inline constexpr const char* kLabels = "labels.json";
 inline constexpr const char* kManifest = "manifest.json";
+// Of a rejected frame only:
+inline constexpr const char* kTwin = "twin.png";              ///< ids as in instances.png
+inline constexpr const char* kDifference = "difference.png";  ///< see difference_image
+inline constexpr const char* kReason = "reason.txt";
 }  // namespace frame_files
 
 /// The stem that a frame has in every export: "000042".

@@ -93,7 +93,7 @@ Result<Reconciliation> reconcile(Campaign& campaign, VerifyDepth depth) {
   fs::remove_all(campaign.files.work(), error);
   if (Status reset = campaign.store.reset_running(); !reset) return forward_error(reset);
   Reconciliation result;
-  std::vector<std::pair<std::int64_t, std::string>> adopted;
+  std::vector<std::pair<std::int64_t, Manifest>> adopted;
   std::vector<std::int64_t> invalid;
   const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
     const fs::path folder = campaign.files.frame(row.frame);
@@ -109,7 +109,7 @@ Result<Reconciliation> reconcile(Campaign& campaign, VerifyDepth depth) {
         return {};
       }
       if (same) {
-        adopted.emplace_back(row.frame, manifest->pixel_hash());
+        adopted.emplace_back(row.frame, *manifest);
         return {};
       }
       if (done) {
@@ -122,8 +122,9 @@ Result<Reconciliation> reconcile(Campaign& campaign, VerifyDepth depth) {
     return {};
   });
   if (!visited) return forward_error(visited);
-  for (const auto& [frame, pixel_hash] : adopted) {
-    if (Status done = campaign.store.adopt(frame, pixel_hash); !done) return forward_error(done);
+  for (const auto& [frame, manifest] : adopted) {
+    const Status done = campaign.store.adopt(frame, manifest.pixel_hash(), manifest.twin);
+    if (!done) return forward_error(done);
   }
   for (const std::int64_t frame : invalid) {
     if (Status done = campaign.store.reset(frame); !done) return forward_error(done);

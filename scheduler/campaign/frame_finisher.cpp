@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
+#include "annotate/amodal.h"
 #include "annotate/labels.h"
 #include "base/campaign_files.h"
-#include "base/files.h"
-#include "base/sha256.h"
-#include "campaign/manifest.h"
+#include "campaign/frame_writer.h"
 #include "image/exr_file.h"
 #include "image/exr_metadata.h"
 #include "image/pass_reader.h"
 #include "image/pixel_hash.h"
 #include "image/png_file.h"
+#include "twin/twin_check.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -19,42 +19,6 @@ namespace {
 
 constexpr const char* kRenderedPasses = "rendered.exr";
 constexpr const char* kSharpPasses = "rendered.exr.sharp";
-
-/// Writes the files of one frame and keeps account of them for the manifest.
-class FrameWriter {
- public:
-  explicit FrameWriter(fs::path folder) : folder_(std::move(folder)) {}
-
-  void write(const char* name, const std::string& bytes) {
-    if (!status_) return;
-    status_ = write_file_unsynced(folder_ / name, bytes);
-    manifest_.files[name] = {bytes.size(), sha256_hex(bytes)};
-  }
-
-  /// For what `make` writes itself.
-  template <class Make>
-  void make(const char* name, Make make) {
-    if (!status_) return;
-    const fs::path path = folder_ / name;
-    status_ = make(path);
-    if (!status_) return;
-    const Result<std::string> sha256 = sha256_of_file(path);
-    if (!sha256) {
-      status_ = forward_error(sha256);
-      return;
-    }
-    std::error_code error;
-    manifest_.files[name] = {fs::file_size(path, error), *sha256};
-  }
-
-  Manifest& manifest() { return manifest_; }
-  const Status& status() const { return status_; }
-
- private:
-  fs::path folder_;
-  Manifest manifest_;
-  Status status_;
-};
 
 PassExpectation expectation(const FrameSpec& spec) {
   PassExpectation expected;
@@ -74,28 +38,77 @@ Result<FramePasses> read_frame_passes(const FinishTask& task) {
   const PassExpectation expected = expectation(task.spec);
   Result<FramePasses> passes = read_passes(rendered_passes(task.attempt_folder), expected);
   if (!passes || task.spec.camera.aperture_radius_m == 0.0) return passes;
-  const fs::path path = task.attempt_folder / kSharpPasses;
-  Result<FramePasses> sharp = read_passes(path, expected);
+  Result<FramePasses> sharp = read_passes(task.attempt_folder / kSharpPasses, expected);
   if (!sharp) return sharp;
   sharp->combined = std::move(passes->combined);
   sharp->pixel_hashes["combined"] = passes->pixel_hashes["combined"];
-  std::error_code ignored;
-  fs::remove(path, ignored);
   return sharp;
 }
 
-void write_passes(const fs::path& rendered, const FramePasses& passes, FrameWriter& writer) {
-  writer.make(frame_files::kPasses,
-              [&](const fs::path& path) { return copy_without_metadata(rendered, path); });
-  if (passes.depth) {
+/// Moves what was rendered out of the attempt's folder, which goes, and puts beside it what it
+/// should have been.
+Status keep_rejected(const FinishTask& task, const Image<std::uint16_t>& rendered, const Twin& twin,
+                     const std::string& reason) {
+  const fs::path& folder = task.rejected_folder;
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (Status made = make_folders(folder); !made) return made;
+  for (const char* name : {kRenderedPasses, kSharpPasses}) {
+    fs::rename(task.attempt_folder / name, folder / name, error);  // the sharp one is seldom there
+  }
+  FrameWriter writer(folder);
+  writer.write(frame_files::kSpec, readable_json(to_json(task.spec)));
+  writer.write(frame_files::kInstances, encode_png(rendered));
+  writer.write(frame_files::kTwin, encode_png(twin.instance_ids));
+  writer.write(frame_files::kDifference, encode_png(difference_image(rendered, twin.instance_ids)));
+  writer.write(frame_files::kReason, reason + "\n");
+  return writer.status();
+}
+
+Result<TwinTally> check(const FinishTask& task, const LabelConfig& labels,
+                        const Image<std::uint16_t>& rendered, const Twin& twin) {
+  if (!labels.check || !task.spec.labels.twin_exact) return TwinTally{};
+  const TwinVerdict verdict = compare_with_twin(task.spec, rendered, twin.instance_ids,
+                                                {labels.tolerance, labels.edge_tolerance});
+  if (verdict.complaint.empty()) return verdict.tally;
+  if (Status kept = keep_rejected(task, rendered, twin, verdict.complaint); !kept) {
+    return forward_error(kept);
+  }
+  return fail(ErrorKind::kRender, "{}. What was rendered is kept in {}", verdict.complaint,
+              task.rejected_folder.string());
+}
+
+/// What both ways of finishing write.
+Status write_labels(const FinishTask& task, const Image<std::uint16_t>& instance_ids,
+                    const Twin& twin, FrameWriter& writer) {
+  Result<FrameLabels> labels = make_labels(task.spec, instance_ids);
+  if (!labels) return forward_error(labels);
+  add_amodal_labels(*labels, task.spec, twin, instance_ids);
+  writer.write(frame_files::kSpec, readable_json(to_json(task.spec)));
+  writer.write(frame_files::kInstances, encode_png(instance_ids));
+  writer.write(frame_files::kSemantic, encode_png(semantic_image(task.spec, instance_ids)));
+  writer.write(frame_files::kLabels, readable_json(to_json(*labels)));
+  return {};
+}
+
+void write_data_passes(const std::optional<Image<float>>& depth,
+                       const std::optional<Image<float>>& normal, FrameWriter& writer) {
+  if (depth) {
     writer.make(frame_files::kDepth,
-                [&](const fs::path& path) { return write_exr(path, *passes.depth, {"Z"}); });
+                [&](const fs::path& path) { return write_exr(path, *depth, {"Z"}); });
   }
-  if (passes.normal) {
-    writer.make(frame_files::kNormal, [&](const fs::path& path) {
-      return write_exr(path, *passes.normal, {"X", "Y", "Z"});
-    });
+  if (normal) {
+    writer.make(frame_files::kNormal,
+                [&](const fs::path& path) { return write_exr(path, *normal, {"X", "Y", "Z"}); });
   }
+}
+
+Result<FinishedFrame> close(const FinishTask& task, const TwinTally& tally, FrameWriter& writer) {
+  Manifest& manifest = writer.manifest();
+  manifest.frame_id = task.frame_id;
+  manifest.twin = tally;
+  if (Status written = writer.write_manifest(); !written) return forward_error(written);
+  return FinishedFrame{manifest.pixel_hash(), tally};
 }
 
 }  // namespace
@@ -104,39 +117,51 @@ fs::path rendered_passes(const fs::path& attempt_folder) {
   return attempt_folder / kRenderedPasses;
 }
 
-Result<std::string> finish_frame(const FinishTask& task, const ColorManagement& color) {
-  const fs::path rendered = rendered_passes(task.attempt_folder);
+Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorManagement& color) {
   const Result<FramePasses> passes = read_frame_passes(task);
   if (!passes) return forward_error(passes);
-  const Result<FrameLabels> labels = make_labels(task.spec, passes->instance_ids);
-  if (!labels) return forward_error(labels);
+  const Image<std::uint16_t>& ids = passes->instance_ids;
+  const Result<Twin> twin = tracer_.trace(task.spec, task.meshes, TwinTracer::Passes::kIdsOnly);
+  if (!twin) return forward_error(twin);
+  const Result<TwinTally> tally = check(task, labels_, ids, *twin);
+  if (!tally) return forward_error(tally);
   const ImageSettings& view = task.spec.image;
   const auto image = color.apply(
       passes->combined, {view.display, view.view, view.look, view.exposure_stops, view.gamma});
   if (!image) return forward_error(image);
 
   FrameWriter writer(task.attempt_folder);
-  writer.write(frame_files::kSpec, readable_json(to_json(task.spec)));
-  writer.write(frame_files::kImage, encode_png(*image));
-  writer.write(frame_files::kInstances, encode_png(passes->instance_ids));
-  writer.write(frame_files::kSemantic, encode_png(semantic_image(task.spec, passes->instance_ids)));
-  writer.write(frame_files::kLabels, readable_json(to_json(*labels)));
-  write_passes(rendered, *passes, writer);
-  Manifest& manifest = writer.manifest();
-  manifest.frame_id = task.frame_id;
-  manifest.pixel_hashes = passes->pixel_hashes;
-  manifest.pixel_hashes["image"] = pixel_hash(*image, "R,G,B");
-  const std::string manifest_text = readable_json(to_json(manifest));
-  const std::string hash = manifest.pixel_hash();
-  if (!writer.status()) return forward_error(writer.status());
-  if (Status written =
-          write_file_unsynced(task.attempt_folder / frame_files::kManifest, manifest_text);
-      !written) {
-    return forward_error(written);
+  if (Status labelled = write_labels(task, ids, *twin, writer); !labelled) {
+    return forward_error(labelled);
   }
+  writer.write(frame_files::kImage, encode_png(*image));
+  writer.make(frame_files::kPasses, [&](const fs::path& path) {
+    return copy_without_metadata(rendered_passes(task.attempt_folder), path);
+  });
+  write_data_passes(passes->depth, passes->normal, writer);
+  writer.manifest().pixel_hashes = passes->pixel_hashes;
+  writer.manifest().pixel_hashes["image"] = pixel_hash(*image, "R,G,B");
+  Result<FinishedFrame> finished = close(task, *tally, writer);
+  if (!finished) return finished;
   std::error_code ignored;
-  fs::remove(rendered, ignored);
-  return hash;
+  fs::remove(task.attempt_folder / kRenderedPasses, ignored);
+  fs::remove(task.attempt_folder / kSharpPasses, ignored);
+  return finished;
+}
+
+Result<FinishedFrame> FrameFinisher::finish_by_twin(const FinishTask& task) {
+  const Result<Twin> twin = tracer_.trace(task.spec, task.meshes, TwinTracer::Passes::kAsked);
+  if (!twin) return forward_error(twin);
+  FrameWriter writer(task.attempt_folder);
+  if (Status labelled = write_labels(task, twin->instance_ids, *twin, writer); !labelled) {
+    return forward_error(labelled);
+  }
+  write_data_passes(twin->depth, twin->normal, writer);
+  auto& hashes = writer.manifest().pixel_hashes;
+  hashes["index"] = pixel_hash(twin->instance_ids, "X");
+  if (twin->depth) hashes["depth"] = pixel_hash(*twin->depth, "float", "Z");
+  if (twin->normal) hashes["normal"] = pixel_hash(*twin->normal, "float", "X,Y,Z");
+  return close(task, {}, writer);
 }
 
 }  // namespace seedframe

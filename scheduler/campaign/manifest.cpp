@@ -8,7 +8,7 @@ namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 }  // namespace
 
@@ -22,8 +22,30 @@ Json to_json(const Manifest& manifest) {
   return {{"version", kVersion},
           {"frame_id", manifest.frame_id},
           {"pixels", manifest.pixel_hashes},
+          {"twin",
+           {{"pixels", manifest.twin.pixels},
+            {"inside_px", manifest.twin.inside_px},
+            {"edge_px", manifest.twin.edge_px}}},
           {"files", files}};
 }
+
+namespace {
+
+Result<TwinTally> read_tally(const Json& manifest, const std::string& what) {
+  const auto json = json_field<Json>(manifest, "twin", what);
+  if (!json) return forward_error(json);
+  TwinTally tally;
+  for (const auto& [key, value] : {std::pair("pixels", &tally.pixels),
+                                   std::pair("inside_px", &tally.inside_px),
+                                   std::pair("edge_px", &tally.edge_px)}) {
+    const auto number = json_field<std::int64_t>(*json, key, what);
+    if (!number) return forward_error(number);
+    *value = *number;
+  }
+  return tally;
+}
+
+}  // namespace
 
 Result<Manifest> read_manifest(const fs::path& frame_folder) {
   const fs::path path = frame_folder / frame_files::kManifest;
@@ -44,7 +66,9 @@ Result<Manifest> read_manifest(const fs::path& frame_folder) {
   if (!pixels) return forward_error(pixels);
   const auto files = json_field<std::map<std::string, Json>>(*json, "files", what);
   if (!files) return forward_error(files);
-  Manifest manifest{*frame_id, *pixels, {}};
+  const auto twin = read_tally(*json, what);
+  if (!twin) return forward_error(twin);
+  Manifest manifest{*frame_id, *pixels, {}, *twin};
   for (const auto& [name, entry] : *files) {
     const auto bytes = json_field<std::uint64_t>(entry, "bytes", what);
     if (!bytes) return forward_error(bytes);

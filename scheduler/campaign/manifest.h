@@ -8,6 +8,7 @@
 
 #include "base/canonical_json.h"
 #include "base/error.h"
+#include "base/twin_tally.h"
 
 namespace seedframe {
 
@@ -19,6 +20,7 @@ struct Manifest {
   std::string frame_id;
   std::map<std::string, std::string> pixel_hashes;  ///< by pass; "image" for image.png
   std::map<std::string, File> files;                ///< all but the manifest itself
+  TwinTally twin;
 
   /// SHA-256 over the canonical JSON of pixel_hashes: the frame's part of the dataset hash.
   std::string pixel_hash() const;

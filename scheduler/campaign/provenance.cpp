@@ -13,6 +13,7 @@
 
 #include "base/files.h"
 #include "base/sha256.h"
+#include "geometry/ray_mesh.h"
 
 namespace seedframe {
 namespace {
@@ -37,6 +38,11 @@ Status merge(const Json& earlier, const std::string& what, Json& json) {
   const auto workers = json_field<std::vector<Json>>(earlier, "workers", what);
   if (!workers) return forward_error(workers);
   json["workers"] = *workers;
+  const auto isas = json_field<std::vector<std::string>>(earlier, "twin_isa", what);
+  if (!isas) return forward_error(isas);
+  for (const std::string& isa : *isas) {
+    if (isa != json["twin_isa"][0]) json["twin_isa"].push_back(isa);
+  }
   return {};
 }
 
@@ -44,6 +50,7 @@ Status merge(const Json& earlier, const std::string& what, Json& json) {
 
 Json library_versions() {
   return {{"draco", draco::kDracoVersion},
+          {"embree", ray_tracing_version()},
           {"libpng", png_get_libpng_ver(nullptr)},
           {"opencolorio", OCIO_NAMESPACE::GetVersion()},
           {"openexr", OPENEXR_VERSION_STRING},
@@ -70,6 +77,7 @@ Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCa
                {"textures", textures},
                {"ocio_config_sha256", ocio_hash},
                {"libraries", library_versions()},
+               {"twin_isa", {ray_tracing_isa()}},
                {"workers", Json::array()}};
   std::error_code error;
   if (std::filesystem::exists(files.provenance(), error)) {

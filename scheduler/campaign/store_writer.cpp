@@ -19,7 +19,8 @@ struct WriteRow {
     return store.attempt_failed(event.job.frame, event.job.attempt, event.message, event.final);
   }
   Status operator()(const FrameFinished& event) const {
-    return store.frame_done(event.job.frame, event.job.attempt, event.pixel_hash, event.timings);
+    return store.frame_done(event.job.frame, event.job.attempt, event.pixel_hash, event.twin,
+                            event.timings);
   }
 };
 
@@ -91,6 +92,9 @@ Status StoreWriter::write(const std::vector<StoreEvent>& events) {
 Status StoreWriter::put_into_place(const FrameJob& job) const {
   const fs::path folder = files_.frame(job.frame);
   if (Status made = make_folders(folder.parent_path()); !made) return made;
+  // An earlier attempt may have been rejected; this one was not.
+  std::error_code ignored;
+  fs::remove_all(files_.rejected(job.frame), ignored);
   return replace_folder(files_.attempt(job.frame, job.attempt), folder);
 }
 

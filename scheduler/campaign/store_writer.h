@@ -32,6 +32,7 @@ struct AttemptFailed {
 struct FrameFinished {
   FrameJob job;
   std::string pixel_hash;
+  TwinTally twin;
   AttemptTimings timings;
 };
 

@@ -60,6 +60,7 @@ Result<Dataset> read_dataset(const Campaign& campaign, const PreparedCampaign& p
   Dataset dataset;
   dataset.name = prepared.config.name;
   dataset.categories = prepared.config.categories;
+  dataset.has_images = prepared.config.labels.source == LabelSource::kIndexPass;
   std::int64_t missing = 0;
   const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
     if (row.state != FrameState::kDone) {

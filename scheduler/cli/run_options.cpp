@@ -3,10 +3,13 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <memory>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 
+#include "campaign/label_run.h"
+#include "campaign/render_run.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/progress.h"
@@ -93,8 +96,12 @@ void add_run_options(CLI::App& verb, RunArguments& arguments) {
   verb.add_flag("--quiet", arguments.quiet, "no progress");
 }
 
-Result<RunSetup> set_up_run(const RunArguments& arguments, const CampaignConfig& config,
-                            std::int64_t frames) {
+namespace {
+
+int cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+Result<RunSetup> set_up_rendering(const RunArguments& arguments, const CampaignConfig& config,
+                                  std::int64_t frames) {
   Result<BlenderInfo> blender = probe_blender(arguments.blender);
   if (!blender) return forward_error(blender);
   if (!blender->tested) {
@@ -105,45 +112,85 @@ Result<RunSetup> set_up_run(const RunArguments& arguments, const CampaignConfig&
   }
   Result<ColorManagement> color = load_color_management(config, *blender);
   if (!color) return forward_error(color);
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const WorkerPlan plan = choose_workers(config.render.width, config.render.height,
-                                         config.render.samples, frames, cores);
+                                         config.render.samples, frames, cores());
   RunOptions options;
   options.blender = *blender;
   options.scripts = seedframe_home() / "blender_scripts";
   options.workers = arguments.workers > 0 ? arguments.workers : plan.workers;
   options.threads = arguments.threads > 0   ? arguments.threads
-                    : arguments.workers > 0 ? std::max(1, cores / arguments.workers)
+                    : arguments.workers > 0 ? std::max(1, cores() / arguments.workers)
                                             : plan.threads;
   options.max_attempts = arguments.max_attempts;
   options.frame_timeout =
       std::chrono::milliseconds(static_cast<long long>(arguments.frame_timeout_s * 1e3));
-  return RunSetup{std::move(*blender), std::move(*color), options};
+  return RunSetup{std::move(options), std::move(*color)};
 }
+
+}  // namespace
+
+Result<RunSetup> set_up_run(const RunArguments& arguments, const CampaignConfig& config,
+                            std::int64_t frames) {
+  if (config.labels.source == LabelSource::kIndexPass) {
+    return set_up_rendering(arguments, config, frames);
+  }
+  RunSetup setup;
+  setup.options.workers = arguments.workers > 0 ? arguments.workers : cores();
+  return setup;
+}
+
+std::string describe(const RunSetup& setup) {
+  const RunOptions& options = setup.options;
+  if (!setup.color) return fmt::format("{} threads, without Blender", options.workers);
+  return fmt::format("{} × Blender {}, threads each: {}", options.workers, options.blender.version,
+                     options.threads);
+}
+
+namespace {
+
+/// "rendering 24 frames of 320 × 240 at 32 samples"
+std::string describe_work(const CampaignConfig& config, std::size_t frames) {
+  const RenderConfig& render = config.render;
+  if (config.labels.source == LabelSource::kTwin) {
+    return fmt::format("tracing the labels of {} frames of {} × {}", frames, render.width,
+                       render.height);
+  }
+  return fmt::format("rendering {} frames of {} × {} at {} samples", frames, render.width,
+                     render.height, render.samples);
+}
+
+std::unique_ptr<CampaignRun> new_run(Campaign& campaign, PreparedCampaign& prepared,
+                                     const RunSetup& setup, Provenance& provenance,
+                                     RunObserver& observer) {
+  if (!setup.color) {
+    return std::make_unique<LabelRun>(campaign, prepared, setup.options, observer);
+  }
+  return std::make_unique<RenderRun>(campaign, prepared, *setup.color, provenance, setup.options,
+                                     observer);
+}
+
+}  // namespace
 
 int run_campaign(Campaign& campaign, PreparedCampaign& prepared, const RunSetup& setup,
                  const std::vector<PendingFrame>& frames, const RunArguments& arguments) {
-  Result<Provenance> provenance =
-      Provenance::load(campaign.files, prepared, setup.color.config_hash());
+  Result<Provenance> provenance = Provenance::load(
+      campaign.files, prepared, setup.color ? setup.color->config_hash() : std::string());
   if (!provenance) return report(provenance.error());
   if (Status written = provenance->write(); !written) return report(written.error());
   const Result<FrameCounts> before = campaign.store.counts();
   if (!before) return report(before.error());
   if (!arguments.quiet && !frames.empty()) {
-    std::fprintf(stderr,
-                 "rendering %zu frames of %d × %d at %d samples into %s: %d × Blender %s, threads "
-                 "each: %d\n",
-                 frames.size(), prepared.config.render.width, prepared.config.render.height,
-                 prepared.config.render.samples, campaign.files.root().c_str(),
-                 setup.options.workers, setup.blender.version.c_str(), setup.options.threads);
+    std::fprintf(stderr, "%s into %s: %s\n",
+                 describe_work(prepared.config, frames.size()).c_str(),
+                 campaign.files.root().c_str(), describe(setup).c_str());
   }
   const auto start = std::chrono::steady_clock::now();
   Progress progress(static_cast<std::int64_t>(frames.size()), before->done,
                     arguments.quiet || frames.empty());
-  CampaignRun run(campaign, prepared, setup.color, *provenance, setup.options, progress);
+  const auto run = new_run(campaign, prepared, setup, *provenance, progress);
   Result<RunSummary> summary = [&] {
-    const DrainOnSignals drain(run);
-    return run.run(frames);
+    const DrainOnSignals drain(*run);
+    return run->run(frames);
   }();
   progress.finish();
   if (!summary) {

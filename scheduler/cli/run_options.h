@@ -1,11 +1,14 @@
 // The options that submit and resume share, and the run that they both start.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "campaign/campaign.h"
 #include "campaign/campaign_run.h"
+#include "image/color_management.h"
 
 namespace CLI {
 class App;
@@ -26,12 +29,14 @@ void add_run_options(CLI::App& verb, RunArguments& arguments);
 
 /// Everything but the campaign that a run needs, found and checked before anything is written.
 struct RunSetup {
-  BlenderInfo blender;
-  ColorManagement color;
   RunOptions options;
+  std::optional<ColorManagement> color;  ///< none: labels by geometry, and Blender is not needed
 };
 Result<RunSetup> set_up_run(const RunArguments& arguments, const CampaignConfig& config,
                             std::int64_t frames);
+
+/// "2 × Blender 3.4.1, threads each: 1", or "2 threads, without Blender".
+std::string describe(const RunSetup& setup);
 
 /// Renders the frames with a progress bar, Ctrl-C draining, and prints how it ended and what to do
 /// next. Returns the exit code.

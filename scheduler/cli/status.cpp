@@ -21,6 +21,7 @@ struct CampaignStatus {
   FrameCounts counts;
   std::optional<AttemptTimings> timings;
   std::vector<AttemptRow> failures;
+  TwinSummary twin;
   std::string dataset_hash;
   bool running = false;  ///< a scheduler is at work
 };
@@ -39,6 +40,9 @@ Result<CampaignStatus> read_status(const Campaign& campaign) {
   const auto failures = campaign.store.recent_failures(kShownFailures);
   if (!failures) return forward_error(failures);
   status.failures = *failures;
+  const auto twin = campaign.store.twin_summary();
+  if (!twin) return forward_error(twin);
+  status.twin = *twin;
   const auto hash = campaign.store.dataset_hash();
   if (!hash) return forward_error(hash);
   status.dataset_hash = *hash;
@@ -56,12 +60,25 @@ Json status_json(const CampaignStatus& status) {
                {"pending", status.counts.pending}, {"running", status.counts.running},
                {"failed", status.counts.failed},   {"active", status.running},
                {"recent_failures", failures},      {"dataset_hash", status.dataset_hash}};
+  const TwinSummary& twin = status.twin;
+  json["twin"] = {{"frames", twin.frames},
+                  {"frames_differing", twin.frames_differing},
+                  {"pixels", twin.sum.pixels},
+                  {"inside_px", twin.sum.inside_px},
+                  {"edge_px", twin.sum.edge_px}};
   if (status.timings) {
     json["mean_seconds"] = {{"build", status.timings->build_s},
                             {"render", status.timings->render_s},
                             {"finish", status.timings->finish_s}};
   }
   return json;
+}
+
+std::string twin_text(const TwinSummary& twin) {
+  return fmt::format(
+      "{} frames were compared with their twins: of {} pixels {} differ inside and {} at edges, in "
+      "{} frames\n",
+      twin.frames, twin.sum.pixels, twin.sum.inside_px, twin.sum.edge_px, twin.frames_differing);
 }
 
 void print_status(const CampaignStatus& status, const std::string& folder) {
@@ -78,6 +95,7 @@ void print_status(const CampaignStatus& status, const std::string& folder) {
     const auto left = static_cast<double>(counts.pending + counts.running);
     if (left > 0) fmt::print("left for one worker: {}\n", duration_text(left * frame_s));
   }
+  if (status.twin.frames > 0) fmt::print("{}", twin_text(status.twin));
   for (const AttemptRow& row : status.failures) {
     fmt::print("frame {}, attempt {}: {}\n", row.frame, row.attempt, row.message);
   }

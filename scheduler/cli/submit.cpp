@@ -37,15 +37,16 @@ Result<PreparedCampaign> prepare_submission(const SubmitArguments& arguments) {
 void print_plan(const PreparedCampaign& prepared, const RunSetup& setup, std::int64_t frames,
                 const std::filesystem::path& folder) {
   const CampaignConfig& config = prepared.config;
-  fmt::print("{} scenes × {} frames: {} of {} frames would be rendered, {} × {} at {} samples\n",
-             config.scenes, config.frames_per_scene, frames, config.frame_count(),
-             config.render.width, config.render.height, config.render.samples);
+  const bool rendered = config.labels.source == LabelSource::kIndexPass;
+  fmt::print("{} scenes × {} frames: {} of {} frames would be {}, {} × {}{}\n", config.scenes,
+             config.frames_per_scene, frames, config.frame_count(),
+             rendered ? "rendered" : "labelled", config.render.width, config.render.height,
+             rendered ? fmt::format(" at {} samples", config.render.samples) : std::string());
   fmt::print("seed {}, {} categories, {} meshes, {} images\n", config.seed,
              config.categories.size(), prepared.expander.mesh_buffers().size(),
              prepared.expander.image_files().size());
   fmt::print("{}", describe_constraints(prepared.expander));
-  fmt::print("Blender {}: {} workers of {} threads\n", setup.blender.version, setup.options.workers,
-             setup.options.threads);
+  fmt::print("by {}\n", describe(setup));
   fmt::print("into {} (nothing was written)\n", folder.string());
 }
 

@@ -70,6 +70,44 @@ ImageConfig read_image(SectionReader& campaign, const std::filesystem::path& fol
   return image;
 }
 
+LabelSource read_label_source(const ConfigNode& node, Diagnostics& errors) {
+  if (node.is_scalar() && node.text() == "geometry") return LabelSource::kTwin;
+  if (!node.is_scalar() || node.text() != "render") {
+    errors.add(node.place(), "expected 'render' or 'geometry', found " + node.description());
+  }
+  return LabelSource::kIndexPass;
+}
+
+/// A share between 0 and 1.
+double read_share(SectionReader& section, const std::string& key, double fallback) {
+  const double share = section.constant(key, fallback);
+  if (!(share >= 0.0 && share <= 1.0)) {
+    section.errors().add(section.node().find(key)->place(),
+                         fmt::format("{} is a share from 0 to 1, found {}", key, share));
+  }
+  return share;
+}
+
+LabelConfig read_labels(SectionReader& root, Diagnostics& errors) {
+  LabelConfig labels;
+  const auto node = root.find("labels");
+  if (!node) return labels;
+  labels.place = node->place();
+  if (node->is_scalar()) {  // just the source
+    labels.source = read_label_source(*node, errors);
+    return labels;
+  }
+  SectionReader section(*node, errors);
+  if (const auto source = section.find("source")) {
+    labels.source = read_label_source(*source, errors);
+  }
+  labels.check = section.flag("check", labels.check);
+  labels.tolerance = read_share(section, "tolerance", labels.tolerance);
+  labels.edge_tolerance = read_share(section, "edge_tolerance", labels.edge_tolerance);
+  section.refuse_other_keys();
+  return labels;
+}
+
 std::vector<std::filesystem::path> read_folders(SectionReader& section, const std::string& key,
                                                 const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> folders;
@@ -182,6 +220,7 @@ Result<CampaignConfig> read_campaign_config(const std::string& text,
   config.material_folders = read_folders(section, "material_folders", folder);
   config.render = read_render(section, errors);
   config.image = read_image(section, folder, errors);
+  config.labels = read_labels(section, errors);
   if (const auto node = section.find("variables")) {
     SectionReader variables(*node, errors);
     config.campaign_variables = variables.variables("campaign");

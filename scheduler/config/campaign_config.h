@@ -66,6 +66,18 @@ struct RenderConfig {
   bool normal = false;
 };
 
+/// Where labels come from: Blender's index pass, checked against the twin; or the twin alone,
+/// without Blender.
+enum class LabelSource { kIndexPass, kTwin };
+
+struct LabelConfig {
+  LabelSource source = LabelSource::kIndexPass;
+  bool check = true;          ///< compare each rendered frame with its twin
+  double tolerance = 1e-4;    ///< share of all pixels that may differ, edges apart
+  double edge_tolerance = 0.1;  ///< share of an instance's outline that may
+  Place place;
+};
+
 struct ImageConfig {
   std::string display = "sRGB";
   std::string view = "Filmic";
@@ -203,6 +215,7 @@ struct CampaignConfig {
   std::vector<std::filesystem::path> material_folders;  ///< searched before the built-in ones
   RenderConfig render;
   ImageConfig image;
+  LabelConfig labels;
   std::vector<VariableConfig> campaign_variables, scene_variables, frame_variables;
   std::vector<MaterialConfig> materials;
   std::vector<ObjectConfig> objects;

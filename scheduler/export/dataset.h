@@ -23,6 +23,7 @@ struct Dataset {
   std::string name;
   std::vector<std::string> categories;  ///< category k of labels.json is categories[k - 1]
   std::vector<DatasetFrame> frames;     ///< the complete ones, by rising index
+  bool has_images = true;               ///< false: labels only, nothing was rendered
 };
 
 struct LoadedFrame {

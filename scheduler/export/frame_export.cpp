@@ -100,7 +100,9 @@ Result<ExportSummary> export_frames(const Dataset& dataset, const ExportOptions&
     SplitSummary& counts = summary.splits[split];
     const ExportFrame selected = select_instances(frame, *loaded, options, counts);
     const auto image = std::filesystem::path("images") / counts.split / (selected.stem + ".png");
-    Status placed = folder.place(frame.folder / frame_files::kImage, image, options.link_images);
+    const Status placed = dataset.has_images ? folder.place(frame.folder / frame_files::kImage,
+                                                            image, options.link_images)
+                                             : Status();
     if (!placed) {
       return fail(placed.error().kind, "frame {}: {}", frame.index, placed.error().message);
     }
@@ -109,6 +111,10 @@ Result<ExportSummary> export_frames(const Dataset& dataset, const ExportOptions&
     ++counts.images;
     counts.annotations += static_cast<std::int64_t>(selected.instances.size());
     counts.background_images += selected.instances.empty();
+  }
+  if (!dataset.has_images) {
+    summary.warnings.emplace_back(
+        "the campaign has labels only (labels: geometry): no images were written");
   }
   if (summary.splits.back().images == 0) {
     summary.warnings.push_back(

@@ -2,6 +2,8 @@
 // mesh's identity in every frame spec.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -9,6 +11,9 @@
 #include "geometry/mesh.h"
 
 namespace seedframe {
+
+/// By SHA-256.
+using MeshBuffers = std::map<std::string, std::shared_ptr<const std::string>>;
 
 /// The mesh must pass check_mesh. Names of slots are not part of the bytes.
 std::string mesh_buffer(const Mesh& mesh);

@@ -61,7 +61,7 @@ ConstraintChecker::ConstraintChecker(const std::vector<CompiledConstraint>& cons
 
 const CompiledConstraint* ConstraintChecker::first_unmet(const FrameDraft& draft,
                                                          EvaluationContext& context) {
-  visibility_.reset();
+  rays_.reset();
   for (const std::size_t i : cheapest_first_) {
     ++tallies_[i].checked;
     if (!is_met(constraints_[i], draft, context)) return &constraints_[i];
@@ -86,13 +86,13 @@ bool ConstraintChecker::is_met(const CompiledConstraint& constraint, const Frame
       const auto pixels = static_cast<std::size_t>(draft.spec.render.width) *
                           static_cast<std::size_t>(draft.spec.render.height);
       return std::all_of(indices.begin(), indices.end(), [&](std::size_t i) {
-        return visibility(draft).count(i, 9 * pixels).visible >= least;
+        return rays(draft).count(i, 9 * pixels).visible >= least;
       });
     }
     case ConstraintKind::kVisible:
     case ConstraintKind::kInView:
       return std::all_of(indices.begin(), indices.end(), [&](std::size_t i) {
-        const PixelCounts counts = visibility(draft).count(i, kRaysForShares);
+        const PixelCounts counts = rays(draft).count(i, kRaysForShares);
         const bool view = constraint.kind == ConstraintKind::kInView;
         const double part = view ? counts.in_image : counts.visible;
         const double whole = view ? counts.whole : counts.in_image;
@@ -118,23 +118,21 @@ bool ConstraintChecker::all_apart(const std::vector<const PlacedInstance*>& inst
   return true;
 }
 
-VisibilityScene& ConstraintChecker::visibility(const FrameDraft& draft) {
-  if (visibility_) return *visibility_;
+RayScene& ConstraintChecker::rays(const FrameDraft& draft) {
+  if (rays_) return *rays_;
   const CameraSpec& camera = draft.spec.camera;
   const PixelCamera pixels{draft.spec.render.width, draft.spec.render.height, camera.focal_px,
                            camera.center_px,        camera.clip_start_m,      camera.clip_end_m};
   std::vector<RayInstance> instances;
   for (const PlacedInstance& placed : draft.placed) {
     RayInstance instance;
-    // The ground's box is not asked for: nobody counts its pixels.
-    if (placed.asset) instance.box = placed.asset->box;
     instance.mesh = placed.asset ? ray_mesh(placed) : ground_mesh(draft, placed.spec.mesh);
     instance.camera_from_object = placed.spec.camera_from_object;
     instance.seen = !placed.spec.hidden_from.camera;
     instances.push_back(std::move(instance));
   }
-  visibility_ = std::make_unique<VisibilityScene>(pixels, std::move(instances));
-  return *visibility_;
+  rays_ = std::make_unique<RayScene>(pixels, std::move(instances));
+  return *rays_;
 }
 
 std::shared_ptr<const RayMesh> ConstraintChecker::ray_mesh(const PlacedInstance& instance) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/collision.h"
-#include "geometry/visibility.h"
+#include "geometry/ray_scene.h"
 #include "scene/compiled_config.h"
 #include "scene/frame_draft.h"
 
@@ -35,7 +35,7 @@ class ConstraintChecker {
   bool is_met(const CompiledConstraint& constraint, const FrameDraft& draft,
               EvaluationContext& context);
   bool all_apart(const std::vector<const PlacedInstance*>& instances, double gap_m);
-  VisibilityScene& visibility(const FrameDraft& draft);
+  RayScene& rays(const FrameDraft& draft);
   std::shared_ptr<const RayMesh> ray_mesh(const PlacedInstance& instance);
   std::shared_ptr<const RayMesh> ground_mesh(const FrameDraft& draft, const std::string& sha256);
   const SolidMesh& solid_mesh(const Asset& asset);
@@ -43,7 +43,7 @@ class ConstraintChecker {
   const std::vector<CompiledConstraint>& constraints_;
   std::vector<std::size_t> cheapest_first_;
   std::vector<ConstraintTally> tallies_;
-  std::unique_ptr<VisibilityScene> visibility_;                       ///< of the present frame
+  std::unique_ptr<RayScene> rays_;                                    ///< of the present frame
   std::map<std::string, std::shared_ptr<const RayMesh>> ray_meshes_;  ///< by the mesh's SHA-256
   std::map<std::string, std::unique_ptr<SolidMesh>> solid_meshes_;
   std::string ground_sha256_;  ///< of the last frame's ground, which is often that of the next

@@ -35,6 +35,7 @@ class SceneExpander::Program {
   void evaluate_variables(EvaluationContext& context);
   /// One attempt at the frame.
   FrameDraft draft_frame(EvaluationContext& context);
+  void check_cut_outs(FrameSpec& spec, EvaluationContext& context) const;
 
   CampaignConfig config_;
   std::optional<Graphs> graphs_;
@@ -98,6 +99,20 @@ void SceneExpander::Program::evaluate_variables(EvaluationContext& context) {
   compiled_.frame_variables.evaluate(context);
 }
 
+/// A texture that cuts holes is beyond the twin, which knows triangles only.
+void SceneExpander::Program::check_cut_outs(FrameSpec& spec, EvaluationContext& context) const {
+  const auto cut_out = std::find_if(
+      spec.materials.begin(), spec.materials.end(),
+      [](const MaterialSpec& material) { return material.textures.contains("alpha"); });
+  if (cut_out == spec.materials.end()) return;
+  spec.labels.twin_exact = false;
+  if (spec.labels.source == LabelSource::kTwin) {
+    context.report(config_.labels.place,
+                   "a material of this frame has an opacity texture, whose holes only the renderer "
+                   "sees: use 'labels: render', or a material without such a texture");
+  }
+}
+
 FrameDraft SceneExpander::Program::draft_frame(EvaluationContext& context) {
   FrameDraft draft;
   FrameSpec& spec = draft.spec;
@@ -105,11 +120,13 @@ FrameDraft SceneExpander::Program::draft_frame(EvaluationContext& context) {
   spec.render = render_settings(context);
   spec.image = {config_.image.display, config_.image.view, config_.image.look,
                 config_.image.exposure_stops, config_.image.gamma};
+  spec.labels.source = config_.labels.source;
   if (compiled_.ground) ground_.add(*compiled_.ground, materials_, draft, context);
   placer_.place_all(compiled_, materials_, draft, context);
   const Affine world_from_camera = place_camera(compiled_, draft, context);
   add_lights(compiled_, world_from_camera, draft, context);
   set_world(compiled_.world, world_from_camera, materials_, draft, context);
+  check_cut_outs(spec, context);
   std::string beyond = part_beyond_numbers(spec);
   for (PlacedInstance& instance : draft.placed) {
     instance.spec.camera_from_object =
@@ -199,9 +216,17 @@ Result<ExpandedFrame> SceneExpander::expand(std::int64_t frame, const ExpansionW
 
 std::int64_t SceneExpander::frame_count() const { return program_->frame_count(); }
 
-const std::map<std::string, std::shared_ptr<const std::string>>& SceneExpander::mesh_buffers()
-    const {
+const MeshBuffers& SceneExpander::mesh_buffers() const {
   return program_->placer().mesh_buffers();
+}
+
+MeshBuffers SceneExpander::mesh_buffers_of(const ExpandedFrame& frame) const {
+  MeshBuffers buffers;
+  for (const InstanceSpec& instance : frame.spec.instances) {
+    const auto known = mesh_buffers().find(instance.mesh);
+    buffers[instance.mesh] = known != mesh_buffers().end() ? known->second : frame.ground_buffer;
+  }
+  return buffers;
 }
 
 const std::map<std::string, std::filesystem::path>& SceneExpander::image_files() const {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "config/campaign_config.h"
 #include "geometry/asset_library.h"
+#include "geometry/mesh_buffer.h"
 #include "scene/constraints.h"
 #include "scene/draw.h"
 #include "scene/frame_spec.h"
@@ -56,8 +57,10 @@ class SceneExpander {
 
   std::int64_t frame_count() const;
 
-  /// Mesh buffers of all frames expanded so far, by SHA-256; grounds are with their frames.
-  const std::map<std::string, std::shared_ptr<const std::string>>& mesh_buffers() const;
+  /// Of all frames expanded so far; grounds are with their frames.
+  const MeshBuffers& mesh_buffers() const;
+  /// Of the instances of a frame that this expanded, its ground included.
+  MeshBuffers mesh_buffers_of(const ExpandedFrame& frame) const;
   /// Textures and environment maps of all frames expanded so far, by SHA-256.
   const std::map<std::string, std::filesystem::path>& image_files() const;
   /// Assets used so far: name to SHA-256 of its file, for provenance.

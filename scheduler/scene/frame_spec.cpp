@@ -8,7 +8,7 @@
 namespace seedframe {
 namespace {
 
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 constexpr std::array<const char*, 4> kLightKinds = {"point", "sun", "spot", "area"};
 
 /// Appends canonical JSON; keys must come in byte order.
@@ -128,6 +128,12 @@ void write_instance(Writer& out, const InstanceSpec& instance) {
   out.numbers("materials", instance.materials);
   out.field("mesh", std::string_view(instance.mesh));
   out.field("name", std::string_view(instance.name));
+}
+
+void write_labels(Writer& out, const LabelSettings& labels) {
+  const bool twin = labels.source == LabelSource::kTwin;
+  out.field("source", std::string_view(twin ? "geometry" : "render"));
+  out.field("twin_exact", labels.twin_exact);
 }
 
 void write_light(Writer& out, const LightSpec& light) {
@@ -285,6 +291,11 @@ FrameSpec read(const Json& json) {
   image.at("look").get_to(spec.image.look);
   image.at("exposure_stops").get_to(spec.image.exposure_stops);
   image.at("gamma").get_to(spec.image.gamma);
+  const Json& labels = json.at("labels");
+  labels.at("twin_exact").get_to(spec.labels.twin_exact);
+  if (labels.at("source").get<std::string>() == "geometry") {
+    spec.labels.source = LabelSource::kTwin;
+  }
   return spec;
 }
 
@@ -306,6 +317,7 @@ std::string canonical_text(const FrameSpec& spec) {
   object("camera", write_camera, spec.camera);
   object("image", write_image, spec.image);
   out.list("instances", spec.instances, write_instance);
+  object("labels", write_labels, spec.labels);
   out.list("lights", spec.lights, write_light);
   out.list("materials", spec.materials, write_material);
   object("render", write_render, spec.render);

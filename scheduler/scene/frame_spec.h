@@ -54,7 +54,7 @@ struct MaterialSpec {
   double ior = 1.45;
   double clearcoat = 0.0;
   double texture_repeat = 1.0;                  ///< repeats per UV unit
-  std::map<std::string, std::string> textures;  ///< "color", "metallic", "normal", "roughness"
+  std::map<std::string, std::string> textures;  ///< "alpha", "color", "metallic", "normal", …
 
   bool operator==(const MaterialSpec&) const = default;
 };
@@ -103,6 +103,13 @@ struct ImageSettings {
   double gamma = 1.0;
 };
 
+struct LabelSettings {
+  LabelSource source = LabelSource::kIndexPass;
+  /// Whether the twin sees exactly what is rendered. Not with cut-out textures, whose holes only the
+  /// renderer knows: there the index pass rules, and is not compared.
+  bool twin_exact = true;
+};
+
 struct FrameSpec {
   RenderSettings render;
   CameraSpec camera;
@@ -111,6 +118,7 @@ struct FrameSpec {
   std::vector<InstanceSpec> instances;
   std::vector<LightSpec> lights;
   ImageSettings image;
+  LabelSettings labels;
 };
 
 /// The first part, instances aside, whose numbers are not all finite ("the camera"), or empty.

@@ -11,11 +11,12 @@ namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 4> kTextureEndings = {
+constexpr std::array<std::pair<const char*, const char*>, 5> kTextureEndings = {
     {{"_Color", "color"},
      {"_Roughness", "roughness"},
      {"_NormalGL", "normal"},
-     {"_Metalness", "metallic"}}};
+     {"_Metalness", "metallic"},
+     {"_Opacity", "alpha"}}};
 
 std::vector<fs::path> sorted_entries(const fs::path& folder) {
   std::vector<fs::path> entries;

@@ -16,7 +16,7 @@ namespace seedframe {
 struct TextureSet {
   std::string name;
   std::map<std::string, std::filesystem::path>
-      files;  ///< "color", "roughness", "normal", "metallic"
+      files;  ///< "color", "roughness", "normal", "metallic", "alpha"
 };
 
 class MaterialLibrary {

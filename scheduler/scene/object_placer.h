@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh_buffer.h"
 #include "scene/compiled_config.h"
 #include "scene/frame_draft.h"
 #include "scene/material_picker.h"
@@ -26,7 +27,7 @@ class ObjectPlacer {
                  EvaluationContext& context);
 
   /// Mesh buffers of all frames so far, by SHA-256; without those of grounds.
-  const std::map<std::string, std::shared_ptr<const std::string>>& mesh_buffers() const {
+  const MeshBuffers& mesh_buffers() const {
     return mesh_buffers_;
   }
   /// Assets used so far: name to SHA-256 of its file, for provenance.
@@ -61,7 +62,7 @@ class ObjectPlacer {
   AssetLibrary assets_;
   std::vector<std::string> categories_;
   std::map<std::string, std::shared_ptr<const Asset>> loaded_;
-  std::map<std::string, std::shared_ptr<const std::string>> mesh_buffers_;
+  MeshBuffers mesh_buffers_;
   std::map<std::string, std::string> asset_hashes_;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using sqlite::Statement;
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr std::array<const char*, 4> kStateNames = {"pending", "running", "done", "failed"};
 
 constexpr const char* kSchema = R"sql(
@@ -22,7 +22,10 @@ CREATE TABLE frames (
   state TEXT NOT NULL CHECK (state IN ('pending', 'running', 'done', 'failed')),
   attempts INTEGER NOT NULL DEFAULT 0,
   pixel_hash TEXT NOT NULL DEFAULT '',
-  error TEXT NOT NULL DEFAULT '');
+  error TEXT NOT NULL DEFAULT '',
+  twin_pixels INTEGER NOT NULL DEFAULT 0,
+  twin_inside_px INTEGER NOT NULL DEFAULT 0,
+  twin_edge_px INTEGER NOT NULL DEFAULT 0);
 CREATE INDEX frames_by_state ON frames (state);
 CREATE TABLE attempts (
   frame INTEGER NOT NULL,
@@ -36,11 +39,12 @@ CREATE TABLE attempts (
   message TEXT NOT NULL DEFAULT '',
   PRIMARY KEY (frame, attempt)) WITHOUT ROWID;
 CREATE INDEX attempts_by_outcome ON attempts (outcome, started);
-PRAGMA user_version = 1;
+PRAGMA user_version = 2;
 )sql";
 
 constexpr const char* kFrameColumns =
-    "SELECT frame, scene, frame_id, state, attempts, pixel_hash, error FROM frames ";
+    "SELECT frame, scene, frame_id, state, attempts, pixel_hash, error, twin_pixels, "
+    "twin_inside_px, twin_edge_px FROM frames ";
 
 FrameRow frame_row(const Statement& row) {
   FrameRow frame;
@@ -54,6 +58,7 @@ FrameRow frame_row(const Statement& row) {
   frame.attempts = static_cast<int>(row.integer(4));
   frame.pixel_hash = row.text(5);
   frame.error = row.text(6);
+  frame.twin = {row.integer(7), row.integer(8), row.integer(9)};
   return frame;
 }
 
@@ -128,8 +133,9 @@ Result<JobStore> JobStore::open(const std::filesystem::path& path) {
   if (!version.step()) return tl::unexpected(version.status().error());
   if (version.integer(0) != kVersion) {
     return fail(ErrorKind::kCorrupt,
-                "{} is a job store of version {}; this program reads version {}", path.string(),
-                version.integer(0), kVersion);
+                "{} is a job store of version {}; this program reads version {}: use the Seedframe "
+                "that made it, or submit the campaign anew",
+                path.string(), version.integer(0), kVersion);
   }
   return JobStore(std::move(database));
 }
@@ -184,10 +190,12 @@ Status JobStore::reset(std::int64_t frame) {
   return update.bind(1, frame).run();
 }
 
-Status JobStore::adopt(std::int64_t frame, const std::string& pixel_hash) {
+Status JobStore::adopt(std::int64_t frame, const std::string& pixel_hash, const TwinTally& twin) {
   Statement update(database_->connection,
-                   "UPDATE frames SET state = 'done', pixel_hash = ?, error = '' WHERE frame = ?");
-  return update.bind(1, pixel_hash).bind(2, frame).run();
+                   "UPDATE frames SET state = 'done', pixel_hash = ?, error = '', twin_pixels = ?, "
+                   "twin_inside_px = ?, twin_edge_px = ? WHERE frame = ?");
+  update.bind(1, pixel_hash).bind(2, twin.pixels).bind(3, twin.inside_px).bind(4, twin.edge_px);
+  return update.bind(5, frame).run();
 }
 
 Status JobStore::attempt_started(std::int64_t frame, int attempt, int worker, double unix_time) {
@@ -204,13 +212,15 @@ Status JobStore::attempt_started(std::int64_t frame, int attempt, int worker, do
 }
 
 Status JobStore::frame_done(std::int64_t frame, int attempt, const std::string& pixel_hash,
-                            const AttemptTimings& timings) {
+                            const TwinTally& twin, const AttemptTimings& timings) {
   return database_->transaction([&]() -> Status {
     // Only the attempt that is under way may commit: a late report changes nothing.
     Statement update(database_->connection,
-                     "UPDATE frames SET state = 'done', pixel_hash = ?, error = '' "
+                     "UPDATE frames SET state = 'done', pixel_hash = ?, error = '', "
+                     "twin_pixels = ?, twin_inside_px = ?, twin_edge_px = ? "
                      "WHERE frame = ? AND attempts = ? AND state = 'running'");
-    update.bind(1, pixel_hash).bind(2, frame).bind(3, std::int64_t{attempt});
+    update.bind(1, pixel_hash).bind(2, twin.pixels).bind(3, twin.inside_px).bind(4, twin.edge_px);
+    update.bind(5, frame).bind(6, std::int64_t{attempt});
     if (Status done = update.run(); !done) return done;
     if (sqlite3_changes(database_->connection.handle()) != 1) {
       return fail(ErrorKind::kCorrupt, "attempt {} of frame {} is not the one under way", attempt,
@@ -303,6 +313,21 @@ Result<std::vector<AttemptRow>> JobStore::recent_failures(int most) const {
   while (select.step()) rows.push_back(attempt_row(select));
   if (Status done = select.status(); !done) return forward_error(done);
   return rows;
+}
+
+Result<TwinSummary> JobStore::twin_summary() const {
+  Statement select(database_->connection,
+                   "SELECT count(*), count(CASE WHEN twin_inside_px + twin_edge_px > 0 THEN 1 END), "
+                   "sum(twin_pixels), sum(twin_inside_px), sum(twin_edge_px) FROM frames "
+                   "WHERE state = 'done' AND twin_pixels > 0");
+  TwinSummary summary;
+  if (select.step()) {
+    summary.frames = select.integer(0);
+    summary.frames_differing = select.integer(1);
+    summary.sum = {select.integer(2), select.integer(3), select.integer(4)};
+  }
+  if (Status done = select.status(); !done) return forward_error(done);
+  return summary;
 }
 
 Result<std::optional<AttemptTimings>> JobStore::mean_timings(int most) const {

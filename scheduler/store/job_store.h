@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/twin_tally.h"
 
 namespace seedframe {
 
@@ -24,6 +25,7 @@ struct FrameRow {
   int attempts = 0;
   std::string pixel_hash;  ///< of all passes; set when done
   std::string error;       ///< of the last failed attempt; empty when done
+  TwinTally twin;          ///< set when done
 };
 
 struct AttemptRow {
@@ -52,6 +54,12 @@ struct AttemptTimings {
   double finish_s = 0.0;
 };
 
+struct TwinSummary {
+  std::int64_t frames = 0;            ///< compared
+  std::int64_t frames_differing = 0;  ///< in any pixel
+  TwinTally sum;
+};
+
 /// One SQLite database in WAL mode with synchronous=FULL: a call that returned survives a power
 /// loss. One writer; not for use from several threads at once.
 class JobStore {
@@ -76,10 +84,10 @@ class JobStore {
   /// Makes a frame pending again, whatever it was.
   Status reset(std::int64_t frame);
   /// A frame found complete on disk becomes done.
-  Status adopt(std::int64_t frame, const std::string& pixel_hash);
+  Status adopt(std::int64_t frame, const std::string& pixel_hash, const TwinTally& twin);
   Status attempt_started(std::int64_t frame, int attempt, int worker, double unix_time);
   Status frame_done(std::int64_t frame, int attempt, const std::string& pixel_hash,
-                    const AttemptTimings& timings);
+                    const TwinTally& twin, const AttemptTimings& timings);
   /// The frame becomes failed if `final`, otherwise pending. The attempt need not have started.
   Status attempt_failed(std::int64_t frame, int attempt, const std::string& message, bool final);
 
@@ -95,6 +103,8 @@ class JobStore {
   Result<std::vector<AttemptRow>> attempts(std::int64_t frame) const;
   /// The newest failures, newest first.
   Result<std::vector<AttemptRow>> recent_failures(int most) const;
+  /// Over all frames that are done and were compared with their twins.
+  Result<TwinSummary> twin_summary() const;
   /// Mean over the newest `most` attempts that are done; none if there are none.
   Result<std::optional<AttemptTimings>> mean_timings(int most) const;
 

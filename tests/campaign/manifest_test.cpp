@@ -83,10 +83,10 @@ TEST_F(ManifestTest, AnotherFramesFolderIsNotThisFrame) {
 
 TEST_F(ManifestTest, NewerVersionsAndPathsThatLeaveTheFolderAreRefused) {
   Json json = to_json(manifest_);
-  json["version"] = 2;
+  json["version"] = 3;
   ASSERT_TRUE(write_file(folder_ / frame_files::kManifest, canonical_json(json)));
-  EXPECT_THAT(error_of(VerifyDepth::kSizes), HasSubstr("is of version 2"));
-  json["version"] = 1;
+  EXPECT_THAT(error_of(VerifyDepth::kSizes), HasSubstr("is of version 3"));
+  json["version"] = 2;
   json["files"]["../x"] = {{"bytes", 1}, {"sha256", ""}};
   ASSERT_TRUE(write_file(folder_ / frame_files::kManifest, canonical_json(json)));
   EXPECT_THAT(error_of(VerifyDepth::kSizes), HasSubstr("is not the name of a file"));

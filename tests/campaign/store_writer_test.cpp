@@ -60,7 +60,7 @@ TEST_F(StoreWriterTest, WhatWasPushedIsWrittenInTheEnd) {
   for (std::int64_t frame = 0; frame < kFrames; ++frame) {
     finish_on_disk({frame, 1});
     events.emplace_back(AttemptStarted{{frame, 1}, 0, 1.0});
-    events.emplace_back(FrameFinished{{frame, 1}, "hash", {}});
+    events.emplace_back(FrameFinished{{frame, 1}, "hash", {}, {}});
   }
   write(events);
   EXPECT_EQ(written_, 2 * kFrames);
@@ -74,7 +74,7 @@ TEST_F(StoreWriterTest, WhatWasPushedIsWrittenInTheEnd) {
 TEST_F(StoreWriterTest, EventsOfOneFrameKeepTheirOrder) {
   finish_on_disk({3, 2});
   write({AttemptStarted{{3, 1}, 0, 1.0}, AttemptFailed{{3, 1}, "died", false},
-         AttemptStarted{{3, 2}, 1, 2.0}, FrameFinished{{3, 2}, "hash", {.render_s = 0.5}}});
+         AttemptStarted{{3, 2}, 1, 2.0}, FrameFinished{{3, 2}, "hash", {}, {.render_s = 0.5}}});
   EXPECT_EQ(row(3).state, FrameState::kDone);
   EXPECT_EQ(row(3).attempts, 2);
   const auto attempts = store_->attempts(3);
@@ -85,7 +85,7 @@ TEST_F(StoreWriterTest, EventsOfOneFrameKeepTheirOrder) {
 
 TEST_F(StoreWriterTest, AFrameWhoseFolderCannotBePutIntoPlaceIsNotDone) {
   write({AttemptStarted{{5, 1}, 0, 1.0}});
-  write({FrameFinished{{5, 1}, "hash", {}}});  // nothing is on disk
+  write({FrameFinished{{5, 1}, "hash", {}, {}}});  // nothing is on disk
   EXPECT_EQ(failed_, 1);
   EXPECT_EQ(row(5).state, FrameState::kRunning);
 }

@@ -223,9 +223,9 @@ TEST(SceneExpander, FrameSpecsSurviveTheirJson) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(frame_id(*read), frame->id);
   Json newer = to_json(frame->spec);
-  newer["version"] = 3;
+  newer["version"] = 4;
   EXPECT_THAT(frame_spec_from_json(newer, "frame.json").error().message,
-              HasSubstr("frame.json is a frame spec of version 3"));
+              HasSubstr("frame.json is a frame spec of version 4"));
   Json damaged = to_json(frame->spec);
   damaged.erase("camera");
   EXPECT_FALSE(frame_spec_from_json(damaged, "frame.json"));

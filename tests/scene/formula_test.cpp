@@ -286,8 +286,8 @@ TEST(Formula, LengthAndDepthHaveLimits) {
   EXPECT_EQ(value_of(repeated("(", 90) + "7" + repeated(")", 90)), 7.0);
   EXPECT_EQ(value_of(repeated("-", 90) + "7"), 7.0);
   EXPECT_EQ(value_of("1" + repeated("+1", 999)), 1000.0);
-  EXPECT_EQ(value_of(std::string(1999, ' ') + "7"), 7.0);
-  EXPECT_THAT(error_of(std::string(2000, ' ') + "7"), HasSubstr("2000 characters"));
+  EXPECT_EQ(value_of(repeated(" ", 1999) + "7"), 7.0);
+  EXPECT_THAT(error_of(repeated(" ", 2000) + "7"), HasSubstr("2000 characters"));
   for (const char* open : {"(", "[", "-", "!", "max(", "1?", "1?1:", "[1,"}) {
     EXPECT_THAT(error_of(repeated(open, 150)), HasSubstr("nested too deeply")) << open;
   }

@@ -54,7 +54,7 @@ TEST_F(JobStoreTest, WhatWasCommittedIsThereAfterReopening) {
   {
     JobStore store = store_with(2);
     ASSERT_TRUE(store.attempt_started(0, 1, 4, 1000.0));
-    ASSERT_TRUE(store.frame_done(0, 1, "hash", {.build_s = 0.1, .render_s = 0.2, .finish_s = 0.3}));
+    ASSERT_TRUE(store.frame_done(0, 1, "hash", {}, {.build_s = 0.1, .render_s = 0.2, .finish_s = 0.3}));
     ASSERT_TRUE(store.set_meta("key", "value"));
   }
   const auto store = JobStore::open(path_);
@@ -78,11 +78,11 @@ TEST_F(JobStoreTest, WhatIsWrittenTogetherIsWrittenAllOrNotAtAll) {
   }));
   EXPECT_EQ(store.counts()->running, 2);
   EXPECT_FALSE(store.write_together(JobStore::Sync::kNow, [&]() -> Status {
-    if (Status done = store.frame_done(0, 1, "hash", {}); !done) return done;
-    return store.frame_done(2, 1, "was never started", {});
+    if (Status done = store.frame_done(0, 1, "hash", {}, {}); !done) return done;
+    return store.frame_done(2, 1, "was never started", {}, {});
   }));
   EXPECT_EQ(store.counts()->running, 2);
-  ASSERT_TRUE(store.frame_done(0, 1, "hash", {}));
+  ASSERT_TRUE(store.frame_done(0, 1, "hash", {}, {}));
   EXPECT_EQ(store.counts()->done, 1);
 }
 
@@ -91,10 +91,10 @@ TEST_F(JobStoreTest, ALateAttemptCannotCommit) {
   ASSERT_TRUE(store.attempt_started(0, 1, 0, 1.0));
   ASSERT_TRUE(store.attempt_failed(0, 1, "died", false));
   ASSERT_TRUE(store.attempt_started(0, 2, 1, 2.0));
-  EXPECT_FALSE(store.frame_done(0, 1, "late", {}));
+  EXPECT_FALSE(store.frame_done(0, 1, "late", {}, {}));
   EXPECT_EQ((*store.frame(0))->state, FrameState::kRunning);
-  ASSERT_TRUE(store.frame_done(0, 2, "right", {}));
-  EXPECT_FALSE(store.frame_done(0, 2, "twice", {}));
+  ASSERT_TRUE(store.frame_done(0, 2, "right", {}, {}));
+  EXPECT_FALSE(store.frame_done(0, 2, "twice", {}, {}));
   EXPECT_EQ((*store.frame(0))->pixel_hash, "right");
 }
 
@@ -123,7 +123,7 @@ TEST_F(JobStoreTest, AnAttemptCanFailBeforeItStarts) {
 TEST_F(JobStoreTest, ALateFailureDoesNotUndoADoneFrame) {
   JobStore store = store_with(1);
   ASSERT_TRUE(store.attempt_started(0, 1, 0, 1.0));
-  ASSERT_TRUE(store.frame_done(0, 1, "hash", {}));
+  ASSERT_TRUE(store.frame_done(0, 1, "hash", {}, {}));
   ASSERT_TRUE(store.attempt_failed(0, 1, "late", true));
   EXPECT_EQ((*store.frame(0))->state, FrameState::kDone);
 }
@@ -140,9 +140,9 @@ TEST_F(JobStoreTest, ADeadSchedulersFramesBecomePending) {
 TEST_F(JobStoreTest, TheDatasetHashIsOfAllFramesInOrder) {
   JobStore store = store_with(2);
   EXPECT_EQ(*store.dataset_hash(), "");
-  ASSERT_TRUE(store.adopt(1, "b"));
+  ASSERT_TRUE(store.adopt(1, "b", {}));
   EXPECT_EQ(*store.dataset_hash(), "");
-  ASSERT_TRUE(store.adopt(0, "a"));
+  ASSERT_TRUE(store.adopt(0, "a", {}));
   // printf '0 id0 a\n1 id1 b\n' | sha256sum
   EXPECT_EQ(*store.dataset_hash(),
             "596ba7bff96a42e11d6b5415763a7cad661d9e38b8ef6e2a9d2b1ce606ae61ef");

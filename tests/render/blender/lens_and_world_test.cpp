@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "geometry/mesh_buffer.h"
-#include "geometry/visibility.h"
+#include "geometry/ray_scene.h"
 #include "real_blender_fixture.h"
 
 namespace seedframe {
@@ -24,18 +24,18 @@ std::string two_halves(std::array<std::uint8_t, 3> left_bgr,
   return bytes;
 }
 
-/// What VisibilityScene says of every pixel, as ids.
+/// What RayScene says of every pixel, as ids.
 Image<std::uint16_t> ids_by_embree(const FrameSpec& spec,
                                    const std::map<std::string, std::filesystem::path>& meshes) {
   std::vector<RayInstance> instances;
   for (const InstanceSpec& instance : spec.instances) {
     const auto mesh = mesh_from_buffer(*read_file(meshes.at(instance.mesh)), "mesh");
-    instances.push_back({std::make_shared<const RayMesh>(*mesh), bounding_box(*mesh),
+    instances.push_back({std::make_shared<const RayMesh>(*mesh),
                          Eigen::Affine3d(instance.camera_from_object.matrix()),
                          !instance.hidden_from.camera});
   }
   const CameraSpec& camera = spec.camera;
-  const VisibilityScene scene({spec.render.width, spec.render.height, camera.focal_px,
+  const RayScene scene({spec.render.width, spec.render.height, camera.focal_px,
                                camera.center_px, camera.clip_start_m, camera.clip_end_m},
                               instances);
   Image<std::uint16_t> ids(spec.render.width, spec.render.height);

@@ -1,6 +1,4 @@
-#include "campaign/campaign_run.h"
-
-#include <set>
+#include "campaign/render_run.h"
 
 #include "base/files.h"
 #include "campaign/color_config.h"
@@ -53,26 +51,27 @@ Result<ColorManagement> load_color_management(const CampaignConfig& config,
   return color;
 }
 
-CampaignRun::CampaignRun(Campaign& campaign, PreparedCampaign& prepared,
-                         const ColorManagement& color, Provenance& provenance,
-                         const RunOptions& options, RunObserver& observer)
+RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared,
+                     const ColorManagement& color, Provenance& provenance,
+                     const RunOptions& options, RunObserver& observer)
     : campaign_(campaign),
       prepared_(prepared),
       color_(color),
       provenance_(provenance),
       observer_(observer),
+      finisher_(prepared.config.labels),
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),
       queue_(std::make_unique<FinishQueue>(kFinishThreads)),
       pool_(std::make_unique<WorkerPool>(pool_options(options, campaign.files), *this)) {}
 
-CampaignRun::~CampaignRun() {
+RenderRun::~RenderRun() {
   queue_.reset();
   writer_.reset();
 }
 
-Result<RunSummary> CampaignRun::run(const std::vector<PendingFrame>& frames) {
+Result<RunSummary> RenderRun::run(const std::vector<PendingFrame>& frames) {
   for (const fs::path& folder : {campaign_.files.logs(), campaign_.files.work() / "meshes",
                                  campaign_.files.work() / "attempts", campaign_.files.frames()}) {
     if (Status made = make_folders(folder); !made) return forward_error(made);
@@ -87,7 +86,7 @@ Result<RunSummary> CampaignRun::run(const std::vector<PendingFrame>& frames) {
   return summary;
 }
 
-Result<RenderRequest> CampaignRun::request(const FrameJob& job) {
+Result<RenderRequest> RenderRun::request(const FrameJob& job) {
   Result<ExpandedFrame> expanded = prepared_.expander.expand(job.frame);
   if (!expanded) return forward_error(expanded);
   const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
@@ -96,7 +95,8 @@ Result<RenderRequest> CampaignRun::request(const FrameJob& job) {
   request.spec = canonical_text(expanded->spec);
   std::error_code ignored;
   request.output = fs::absolute(rendered_passes(attempt), ignored);
-  auto meshes = write_mesh_buffers(*expanded);
+  MeshBuffers buffers = prepared_.expander.mesh_buffers_of(*expanded);
+  auto meshes = write_mesh_buffers(buffers);
   if (!meshes) return forward_error(meshes);
   request.meshes = std::move(*meshes);
   const auto add_image = [&](const std::string& sha256) {
@@ -106,68 +106,66 @@ Result<RenderRequest> CampaignRun::request(const FrameJob& job) {
     for (const auto& texture : material.textures) add_image(texture.second);
   }
   if (!expanded->spec.world.hdri.empty()) add_image(expanded->spec.world.hdri);
-  tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), attempt};
+  tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), std::move(buffers), attempt,
+                 campaign_.files.rejected(job.frame)};
   return request;
 }
 
-Result<std::map<std::string, fs::path>> CampaignRun::write_mesh_buffers(
-    const ExpandedFrame& frame) {
+Result<std::map<std::string, fs::path>> RenderRun::write_mesh_buffers(const MeshBuffers& meshes) {
   std::map<std::string, fs::path> paths;
   std::error_code error;
-  for (const InstanceSpec& instance : frame.spec.instances) {
-    if (paths.contains(instance.mesh)) continue;
-    const fs::path path = campaign_.files.mesh_buffer(instance.mesh);
+  for (const auto& [sha256, buffer] : meshes) {
+    const fs::path path = campaign_.files.mesh_buffer(sha256);
     if (!fs::exists(path, error)) {
-      const auto& known = prepared_.expander.mesh_buffers();
-      const auto found = known.find(instance.mesh);
-      const auto& buffer = found != known.end() ? found->second : frame.ground_buffer;
       // Scratch: nobody reads it after a crash.
       if (Status written = write_file_unsynced(path, *buffer); !written) {
         return forward_error(written);
       }
     }
-    paths[instance.mesh] = fs::absolute(path, error);
+    paths[sha256] = fs::absolute(path, error);
   }
   return paths;
 }
 
-void CampaignRun::started(const FrameJob& job, int worker) {
+void RenderRun::started(const FrameJob& job, int worker) {
   writer_->push(AttemptStarted{job, worker, unix_time()});
 }
 
-void CampaignRun::rendered(const FrameJob& job, const RenderTimings& timings, int) {
+void RenderRun::rendered(const FrameJob& job, const RenderTimings& timings, int) {
   const auto task = tasks_.find(job);
   queue_->push(
       [this, job, timings, task = std::move(task->second)] { finish(job, timings, task); });
   tasks_.erase(task);
 }
 
-void CampaignRun::load_view_tables() {
+void RenderRun::load_view_tables() {
   // An error comes again with the first frame.
   (void)color_.apply(Image<float>(1, 1, 4), view_settings(prepared_.config.image));
 }
 
-void CampaignRun::finish(const FrameJob& job, const RenderTimings& timings,
+void RenderRun::finish(const FrameJob& job, const RenderTimings& timings,
                          const FinishTask& task) {
   const auto start = std::chrono::steady_clock::now();
-  const Result<std::string> pixel_hash = finish_frame(task, color_);
+  const Result<FinishedFrame> finished = finisher_.finish(task, color_);
   const std::chrono::duration<double> finish_time = std::chrono::steady_clock::now() - start;
-  if (!pixel_hash) {
-    pool_->post_verdict(job, forward_error(pixel_hash));
+  if (!finished) {
+    pool_->post_verdict(job, forward_error(finished));
     return;
   }
-  writer_->push(
-      FrameFinished{job, *pixel_hash, {timings.build_s, timings.render_s, finish_time.count()}});
+  writer_->push(FrameFinished{job,
+                              finished->pixel_hash,
+                              finished->twin,
+                              {timings.build_s, timings.render_s, finish_time.count()}});
 }
 
-void CampaignRun::attempt_failed(const FrameJob& job, const std::string& message, bool final) {
+void RenderRun::attempt_failed(const FrameJob& job, const std::string& message, bool final) {
   tasks_.erase(job);
   std::error_code ignored;
   fs::remove_all(campaign_.files.attempt(job.frame, job.attempt), ignored);
   writer_->push(AttemptFailed{job, message, final});
 }
 
-void CampaignRun::written(const StoreEvent& event, const Status& status) {
+void RenderRun::written(const StoreEvent& event, const Status& status) {
   keep_error(status);
   if (const auto* finished = std::get_if<FrameFinished>(&event)) {
     if (status) observer_.frame_done(finished->job.frame);
@@ -178,11 +176,11 @@ void CampaignRun::written(const StoreEvent& event, const Status& status) {
   }
 }
 
-void CampaignRun::worker_ready(int, const ReadyMessage& ready) {
+void RenderRun::worker_ready(int, const ReadyMessage& ready) {
   keep_error(provenance_.add_worker(ready));
 }
 
-void CampaignRun::keep_error(const Status& status) {
+void RenderRun::keep_error(const Status& status) {
   if (status) return;
   {
     const std::lock_guard lock(mutex_);

@@ -1,4 +1,4 @@
-#include "geometry/visibility.h"
+#include "geometry/ray_scene.h"
 
 #include <cmath>
 
@@ -39,7 +39,7 @@ Mesh ball() {
 }
 
 RayInstance instance_of(const Mesh& mesh, const Eigen::Affine3d& camera_from_object) {
-  return {std::make_shared<const RayMesh>(mesh), bounding_box(mesh), camera_from_object, true};
+  return {std::make_shared<const RayMesh>(mesh), camera_from_object, true};
 }
 
 RayInstance ball_at(double x, double y, double z, double radius = 1.0) {
@@ -76,8 +76,8 @@ double pixels_where(int from_x, int to_x, int from_y, int to_y, Condition condit
   return count;
 }
 
-TEST(Visibility, ABallAloneHasItsDisc) {
-  const VisibilityScene scene(kCamera, {ball_at(0.5, -0.2, -5)});
+TEST(RayScene, ABallAloneHasItsDisc) {
+  const RayScene scene(kCamera, {ball_at(0.5, -0.2, -5)});
   const PixelCounts counts = scene.count(0, kAllPixels);
   const double expected = pixels_where(0, 160, 0, 120, [](int x, int y) {
     return meets_sphere(kCamera, x, y, {0.5, -0.2, -5}, 1.0);
@@ -88,8 +88,8 @@ TEST(Visibility, ABallAloneHasItsDisc) {
   EXPECT_EQ(counts.visible, counts.whole);
 }
 
-TEST(Visibility, AWallHidesHalfOfABall) {
-  const VisibilityScene scene(kCamera, {ball_at(0, 0, -5), box_of({-9, -9, -3.1}, {0, 9, -3})});
+TEST(RayScene, AWallHidesHalfOfABall) {
+  const RayScene scene(kCamera, {ball_at(0, 0, -5), box_of({-9, -9, -3.1}, {0, 9, -3})});
   const PixelCounts counts = scene.count(0, kAllPixels);
   const double expected = pixels_where(80, 160, 0, 120, [](int x, int y) {
     return meets_sphere(kCamera, x, y, {0, 0, -5}, 1.0);
@@ -101,8 +101,8 @@ TEST(Visibility, AWallHidesHalfOfABall) {
   EXPECT_EQ(wall.visible, wall.in_image);
 }
 
-TEST(Visibility, ABallBehindABallIsWhatTwoDiscsLeave) {
-  const VisibilityScene scene(kCamera, {ball_at(0.9, 0.3, -8), ball_at(0, 0, -5)});
+TEST(RayScene, ABallBehindABallIsWhatTwoDiscsLeave) {
+  const RayScene scene(kCamera, {ball_at(0.9, 0.3, -8), ball_at(0, 0, -5)});
   const PixelCounts counts = scene.count(0, kAllPixels);
   const double expected = pixels_where(0, 160, 0, 120, [](int x, int y) {
     return meets_sphere(kCamera, x, y, {0.9, 0.3, -8}, 1.0) &&
@@ -113,24 +113,24 @@ TEST(Visibility, ABallBehindABallIsWhatTwoDiscsLeave) {
   EXPECT_NEAR(counts.visible, expected, 8.0);
 }
 
-TEST(Visibility, WhatIsBehindAWallIsNotVisibleButInTheImage) {
-  const VisibilityScene scene(kCamera, {ball_at(0, 0, -5), box_of({-9, -9, -3.1}, {9, 9, -3})});
+TEST(RayScene, WhatIsBehindAWallIsNotVisibleButInTheImage) {
+  const RayScene scene(kCamera, {ball_at(0, 0, -5), box_of({-9, -9, -3.1}, {9, 9, -3})});
   const PixelCounts counts = scene.count(0, kAllPixels);
   EXPECT_GT(counts.in_image, 1000.0);
   EXPECT_EQ(counts.visible, 0.0);
 }
 
-TEST(Visibility, WhatIsBehindTheCameraIsNowhere) {
-  const VisibilityScene scene(kCamera, {ball_at(0, 0, 5)});
+TEST(RayScene, WhatIsBehindTheCameraIsNowhere) {
+  const RayScene scene(kCamera, {ball_at(0, 0, 5)});
   const PixelCounts counts = scene.count(0, kAllPixels);
   EXPECT_EQ(counts.whole, 0.0);
   EXPECT_EQ(counts.in_image, 0.0);
   EXPECT_EQ(counts.visible, 0.0);
 }
 
-TEST(Visibility, TheSilhouetteReachesBeyondTheImagesEdge) {
+TEST(RayScene, TheSilhouetteReachesBeyondTheImagesEdge) {
   // 80 pixels to the right of the middle is the edge: half of the ball is outside.
-  const VisibilityScene scene(kCamera, {ball_at(4, 0, -5)});
+  const RayScene scene(kCamera, {ball_at(4, 0, -5)});
   const PixelCounts counts = scene.count(0, kAllPixels);
   const auto hit = [](int x, int y) { return meets_sphere(kCamera, x, y, {4, 0, -5}, 1.0); };
   const double whole = pixels_where(-160, 320, -120, 240, hit);
@@ -141,56 +141,56 @@ TEST(Visibility, TheSilhouetteReachesBeyondTheImagesEdge) {
   EXPECT_EQ(counts.visible, counts.in_image);
 }
 
-TEST(Visibility, WhatIsFarOutOfViewIsNotLookedFor) {
+TEST(RayScene, WhatIsFarOutOfViewIsNotLookedFor) {
   // Farther to the left than the image is wide.
-  const VisibilityScene scene(kCamera, {ball_at(-20, 0, -5)});
+  const RayScene scene(kCamera, {ball_at(-20, 0, -5)});
   EXPECT_EQ(scene.count(0, kAllPixels).whole, 0.0);
 }
 
-TEST(Visibility, ABoxAroundTheCameraFillsTheImage) {
-  const VisibilityScene scene(kCamera, {box_of({-2, -2, -2}, {2, 2, 2})});
+TEST(RayScene, ABoxAroundTheCameraFillsTheImage) {
+  const RayScene scene(kCamera, {box_of({-2, -2, -2}, {2, 2, 2})});
   const PixelCounts counts = scene.count(0, kAllPixels);
   EXPECT_EQ(counts.in_image, 160.0 * 120.0);
   EXPECT_EQ(counts.visible, 160.0 * 120.0);
   EXPECT_EQ(counts.whole, 9.0 * 160.0 * 120.0);
 }
 
-TEST(Visibility, TheClipsAreDepthsAndNotDistances) {
+TEST(RayScene, TheClipsAreDepthsAndNotDistances) {
   PixelCamera camera = kCamera;
   // The wall at a depth of 10 m is 11.3 m away in the corners.
   camera.clip_end_m = 10.5;
   const RayInstance wall = box_of({-99, -99, -10.1}, {99, 99, -10});
-  EXPECT_EQ(VisibilityScene(camera, {wall}).count(0, kAllPixels).in_image, 160.0 * 120.0);
+  EXPECT_EQ(RayScene(camera, {wall}).count(0, kAllPixels).in_image, 160.0 * 120.0);
   camera.clip_end_m = 9.9;
-  EXPECT_EQ(VisibilityScene(camera, {wall}).count(0, kAllPixels).whole, 0.0);
+  EXPECT_EQ(RayScene(camera, {wall}).count(0, kAllPixels).whole, 0.0);
   camera.clip_end_m = 1000.0;
   camera.clip_start_m = 10.05;  // the front is cut away, the back is seen
-  EXPECT_EQ(VisibilityScene(camera, {wall}).count(0, kAllPixels).in_image, 160.0 * 120.0);
+  EXPECT_EQ(RayScene(camera, {wall}).count(0, kAllPixels).in_image, 160.0 * 120.0);
   camera.clip_start_m = 10.2;
-  EXPECT_EQ(VisibilityScene(camera, {wall}).count(0, kAllPixels).whole, 0.0);
+  EXPECT_EQ(RayScene(camera, {wall}).count(0, kAllPixels).whole, 0.0);
 }
 
-TEST(Visibility, WhatTheCameraDoesNotSeeHidesNothing) {
+TEST(RayScene, WhatTheCameraDoesNotSeeHidesNothing) {
   RayInstance wall = box_of({-9, -9, -3.1}, {9, 9, -3});
   wall.seen = false;
-  const VisibilityScene scene(kCamera, {ball_at(0, 0, -5), wall});
+  const RayScene scene(kCamera, {ball_at(0, 0, -5), wall});
   const PixelCounts counts = scene.count(0, kAllPixels);
   EXPECT_EQ(counts.visible, counts.in_image);
   EXPECT_EQ(scene.count(1, kAllPixels).whole, 0.0);
 }
 
-TEST(Visibility, FirstHitNamesTheNearestInstance) {
-  const VisibilityScene scene(kCamera, {ball_at(0, 0, -8), ball_at(0, 0, -5, 0.5)});
+TEST(RayScene, FirstHitNamesTheNearestInstance) {
+  const RayScene scene(kCamera, {ball_at(0, 0, -8), ball_at(0, 0, -5, 0.5)});
   EXPECT_EQ(scene.first_hit(79, 59), 1);
   EXPECT_EQ(scene.first_hit(79 + 11, 59), 0);
   EXPECT_EQ(scene.first_hit(0, 0), -1);
 }
 
-TEST(Visibility, PixelCentresAreWholeNumbersAndYPointsDown) {
+TEST(RayScene, PixelCentresAreWholeNumbersAndYPointsDown) {
   // A plate that covers the columns 100 to 109 and the rows 20 to 39, to half a pixel.
   const auto x = [](double column) { return (column - 79.5) / 100.0 * 10.0; };
   const auto y = [](double row) { return (59.5 - row) / 100.0 * 10.0; };
-  const VisibilityScene scene(kCamera,
+  const RayScene scene(kCamera,
                               {box_of({x(99.5), y(39.5), -10.001}, {x(109.5), y(19.5), -10})});
   EXPECT_EQ(scene.count(0, kAllPixels).visible, 200.0);
   EXPECT_EQ(scene.first_hit(100, 20), 0);
@@ -201,23 +201,23 @@ TEST(Visibility, PixelCentresAreWholeNumbersAndYPointsDown) {
   EXPECT_EQ(scene.first_hit(105, 40), -1);
 }
 
-TEST(Visibility, APrincipalPointAndPixelsThatAreNotSquareAreFollowed) {
+TEST(RayScene, APrincipalPointAndPixelsThatAreNotSquareAreFollowed) {
   const PixelCamera camera{160, 120, {100.0, 50.0}, {20.0, 100.0}, 0.01, 1000.0};
-  const VisibilityScene scene(camera, {ball_at(0, 0, -5)});
+  const RayScene scene(camera, {ball_at(0, 0, -5)});
   const auto hit = [&](int x, int y) { return meets_sphere(camera, x, y, {0, 0, -5}, 1.0); };
   EXPECT_NEAR(scene.count(0, kAllPixels).in_image, pixels_where(0, 160, 0, 120, hit), 8.0);
   EXPECT_NEAR(scene.count(0, kAllPixels).whole, pixels_where(-160, 320, -120, 240, hit), 8.0);
 }
 
-TEST(Visibility, FewRaysGiveNearlyTheSameCounts) {
-  const VisibilityScene scene(kCamera, {ball_at(0.3, 0, -3), box_of({-9, -9, -1.6}, {0, 9, -1.5})});
+TEST(RayScene, FewRaysGiveNearlyTheSameCounts) {
+  const RayScene scene(kCamera, {ball_at(0.3, 0, -3), box_of({-9, -9, -1.6}, {0, 9, -1.5})});
   const PixelCounts all = scene.count(0, kAllPixels);
   const PixelCounts few = scene.count(0, 500);
   EXPECT_NEAR(few.whole / all.whole, 1.0, 0.1);
   EXPECT_NEAR(few.visible / few.in_image, all.visible / all.in_image, 0.05);
 }
 
-TEST(Visibility, TurnedAndStretchedInstancesAreWhereTheyShouldBe) {
+TEST(RayScene, TurnedAndStretchedInstancesAreWhereTheyShouldBe) {
   // A ball stretched to an ellipsoid of 2 m by 0.5 m, turned upright by a quarter.
   static const Mesh mesh = ball();
   Eigen::Affine3d pose = Eigen::Affine3d::Identity();
@@ -232,14 +232,14 @@ TEST(Visibility, TurnedAndStretchedInstancesAreWhereTheyShouldBe) {
     const double along = -ray.dot(start) / ray.squaredNorm();
     return (start + along * ray).norm() < 1.0;
   };
-  const VisibilityScene scene(kCamera, {instance_of(mesh, pose)});
+  const RayScene scene(kCamera, {instance_of(mesh, pose)});
   EXPECT_NEAR(scene.count(0, kAllPixels).visible, pixels_where(0, 160, 0, 120, hit), 2.0);
   EXPECT_EQ(scene.first_hit(79, 51), 0);
   EXPECT_EQ(scene.first_hit(87, 59), -1);
 }
 
-TEST(Visibility, AnEmptySceneHitsNothing) {
-  EXPECT_EQ(VisibilityScene(kCamera, {}).first_hit(10, 10), -1);
+TEST(RayScene, AnEmptySceneHitsNothing) {
+  EXPECT_EQ(RayScene(kCamera, {}).first_hit(10, 10), -1);
 }
 
 }  // namespace

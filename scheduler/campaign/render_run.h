@@ -1,0 +1,67 @@
+// Renders what a campaign still needs: feeds the worker pool, finishes frames beside it, keeps the
+// store.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "campaign/campaign.h"
+#include "campaign/campaign_run.h"
+#include "campaign/finish_queue.h"
+#include "campaign/frame_finisher.h"
+#include "campaign/provenance.h"
+#include "campaign/store_writer.h"
+#include "image/color_management.h"
+
+namespace seedframe {
+
+/// The colour config of a campaign, its view checked against it.
+Result<ColorManagement> load_color_management(const CampaignConfig& config,
+                                              const BlenderInfo& blender);
+
+class RenderRun : public CampaignRun, public RenderClient {
+ public:
+  RenderRun(Campaign& campaign, PreparedCampaign& prepared, const ColorManagement& color,
+            Provenance& provenance, const RunOptions& options, RunObserver& observer);
+  ~RenderRun() override;
+
+  Result<RunSummary> run(const std::vector<PendingFrame>& frames) override;
+  /// See WorkerPool::drain.
+  void drain() override { pool_->drain(); }
+
+ private:
+  Result<RenderRequest> request(const FrameJob& job) override;
+  void started(const FrameJob& job, int worker) override;
+  void rendered(const FrameJob& job, const RenderTimings& timings, int worker) override;
+  void attempt_failed(const FrameJob& job, const std::string& message, bool final) override;
+  void worker_ready(int worker, const ReadyMessage& ready) override;
+
+  /// Writes those that no frame before had. Returns the files' paths by SHA-256.
+  Result<std::map<std::string, std::filesystem::path>> write_mesh_buffers(
+      const MeshBuffers& meshes);
+  /// Takes as long as finishing several frames, so it is done while Blender starts.
+  void load_view_tables();
+  void finish(const FrameJob& job, const RenderTimings& timings, const FinishTask& task);
+  void written(const StoreEvent& event, const Status& status);
+  /// The store failed: nothing more can be trusted, so the run ends.
+  void keep_error(const Status& status);
+
+  Campaign& campaign_;
+  PreparedCampaign& prepared_;
+  const ColorManagement& color_;
+  Provenance& provenance_;
+  RunObserver& observer_;
+  FrameFinisher finisher_;
+  std::map<FrameJob, FinishTask> tasks_;  ///< requested and not yet rendered
+  std::mutex mutex_;                      ///< guards error_
+  Status error_;
+  std::unique_ptr<StoreWriter> writer_;  ///< the only one to use the store and the observer
+  std::unique_ptr<FinishQueue> queue_;
+  std::unique_ptr<WorkerPool> pool_;
+};
+
+}  // namespace seedframe

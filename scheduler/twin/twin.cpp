@@ -1,0 +1,141 @@
+#include "twin/twin.h"
+
+#include <algorithm>
+#include <new>
+#include <unordered_map>
+
+#include "geometry/mesh_buffer.h"
+
+namespace seedframe {
+namespace {
+
+/// Of all kept meshes; about 150 bytes each.
+constexpr std::size_t kMostTriangles = 20'000'000;
+
+Image<float> depth_image(const RayImage& traced) {
+  Image<float> depth(traced.width, traced.height);
+  depth.values = traced.depth;
+  return depth;
+}
+
+Image<float> normal_image(const RayImage& traced) {
+  Image<float> normal(traced.width, traced.height, 3);
+  auto out = normal.values.begin();
+  for (const auto& each : traced.normals) out = std::copy(each.begin(), each.end(), out);
+  return normal;
+}
+
+}  // namespace
+
+PixelCamera pixel_camera(const FrameSpec& spec) {
+  return {spec.render.width,     spec.render.height,       spec.camera.focal_px,
+          spec.camera.center_px, spec.camera.clip_start_m, spec.camera.clip_end_m};
+}
+
+Twin::Twin(RayScene scene, RayImage image, std::vector<int> ids)
+    : instance_ids(image.width, image.height),
+      scene_(std::move(scene)),
+      image_(std::move(image)),
+      ids_(std::move(ids)) {
+  std::transform(image_.instance.begin(), image_.instance.end(), instance_ids.values.begin(),
+                 [&](std::int32_t hit) {
+                   return static_cast<std::uint16_t>(
+                       hit < 0 ? 0 : ids_[static_cast<std::size_t>(hit)]);
+                 });
+  if (!image_.depth.empty()) depth = depth_image(image_);
+  if (!image_.normals.empty()) normal = normal_image(image_);
+}
+
+std::vector<Silhouette> Twin::silhouettes(const Image<std::uint16_t>& visible_ids) const {
+  std::vector<Silhouette> silhouettes(ids_.size());
+  if (visible_ids.values == instance_ids.values) {
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      if (ids_[i] != 0) silhouettes[i] = scene_.silhouette(i, image_);
+    }
+    return silhouettes;
+  }
+  std::unordered_map<int, std::int32_t> index_of_id;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    if (ids_[i] != 0) index_of_id[ids_[i]] = static_cast<std::int32_t>(i);
+  }
+  RayImage visible{visible_ids.width, visible_ids.height, {}, {}, {}};
+  std::vector<PixelRect> extents(ids_.size());
+  visible.instance.reserve(visible_ids.values.size());
+  for (int y = 0; y < visible_ids.height; ++y) {
+    for (int x = 0; x < visible_ids.width; ++x) {
+      const auto found = index_of_id.find(visible_ids.at(y, x));
+      visible.instance.push_back(found == index_of_id.end() ? -1 : found->second);
+      if (found == index_of_id.end()) continue;
+      PixelRect& extent = extents[static_cast<std::size_t>(found->second)];
+      extent = union_of(extent, {x, y, 1, 1});
+    }
+  }
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    if (ids_[i] != 0) silhouettes[i] = scene_.silhouette(i, visible, extents[i]);
+  }
+  return silhouettes;
+}
+
+Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers, Passes passes) {
+  try {
+    std::vector<RayInstance> instances;
+    std::vector<int> ids;
+    instances.reserve(spec.instances.size());
+    ids.reserve(spec.instances.size());
+    for (const InstanceSpec& instance : spec.instances) {
+      auto found = mesh(instance.mesh, buffers);
+      if (!found) return forward_error(found);
+      instances.push_back({std::move(*found),
+                           Eigen::Affine3d(instance.camera_from_object.matrix()),
+                           !instance.hidden_from.camera});
+      ids.push_back(instance.id);
+    }
+    trim();
+    RayScene scene(pixel_camera(spec), std::move(instances));
+    const bool asked = passes == Passes::kAsked;
+    RayImage image = scene.trace({.depth = asked && spec.render.depth,
+                                  .normals = asked && spec.render.normal,
+                                  .threads = threads_});
+    return Twin(std::move(scene), std::move(image), std::move(ids));
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::kEnvironment,
+                "there is not enough memory to trace a frame of {} instances, {}x{} pixels",
+                spec.instances.size(), spec.render.width, spec.render.height);
+  }
+}
+
+Result<std::shared_ptr<const RayMesh>> TwinTracer::mesh(const std::string& sha256,
+                                                        const MeshBuffers& buffers) {
+  const std::lock_guard lock(mutex_);
+  Entry& entry = meshes_[sha256];
+  if (!entry.mesh) {
+    const auto buffer = buffers.find(sha256);
+    const auto read =
+        buffer == buffers.end()
+            ? Result<Mesh>(fail(ErrorKind::kInput, "mesh {} is in the frame spec, but not given",
+                                sha256.substr(0, 12)))
+            : mesh_from_buffer(*buffer->second, "mesh " + sha256.substr(0, 12));
+    if (!read) {
+      meshes_.erase(sha256);
+      return forward_error(read);
+    }
+    entry.mesh = std::make_shared<const RayMesh>(*read);
+    triangles_ += entry.mesh->triangle_count();
+  }
+  entry.last_used = ++uses_;
+  return entry.mesh;
+}
+
+void TwinTracer::trim() {
+  const std::lock_guard lock(mutex_);
+  while (triangles_ > kMostTriangles && meshes_.size() > 1) {
+    const auto oldest =
+        std::min_element(meshes_.begin(), meshes_.end(), [](const auto& a, const auto& b) {
+          return a.second.last_used < b.second.last_used;
+        });
+    if (oldest->second.mesh) triangles_ -= oldest->second.mesh->triangle_count();
+    meshes_.erase(oldest);
+  }
+}
+
+}  // namespace seedframe

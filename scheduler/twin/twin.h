@@ -1,0 +1,81 @@
+// The twin: a frame's second, exact life in C++, traced from its frame spec without Blender.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "geometry/mesh_buffer.h"
+#include "geometry/ray_scene.h"
+#include "image/image.h"
+#include "scene/frame_spec.h"
+
+namespace seedframe {
+
+/// One frame as rays through its pixels' centres see it.
+class Twin {
+ public:
+  Image<std::uint16_t> instance_ids;   ///< 0 is background
+  std::optional<Image<float>> depth;   ///< planar, metres; kNoDepth where there is nothing
+  std::optional<Image<float>> normal;  ///< x, y, z in the camera's frame; 0 where there is nothing
+
+  /// One for each instance of the spec, empty for those without an id. Each contains every pixel
+  /// that `visible_ids` gives to its instance; that is instance_ids, or what Blender rendered.
+  std::vector<Silhouette> silhouettes(const Image<std::uint16_t>& visible_ids) const;
+
+  /// Of an instance's mesh, in object space, metres.
+  const BoundingBox& object_box(std::size_t instance) const {
+    return scene_.instances()[instance].mesh->box();
+  }
+
+ private:
+  friend class TwinTracer;
+  Twin(RayScene scene, RayImage image, std::vector<int> ids);
+
+  RayScene scene_;
+  RayImage image_;
+  std::vector<int> ids_;  ///< by the instance's index
+};
+
+/// Traces frames, and keeps the trees of their meshes for the next. Safe to use from several
+/// threads.
+class TwinTracer {
+ public:
+  /// `threads` for each frame.
+  explicit TwinTracer(int threads = 1) : threads_(threads) {}
+
+  enum class Passes {
+    kIdsOnly,
+    kAsked,  ///< depth and normal too when the spec asks for them
+  };
+  /// `buffers` holds those of the spec's meshes; a damaged or a missing one is an error, as is a
+  /// lack of memory (kEnvironment).
+  Result<Twin> trace(const FrameSpec& spec, const MeshBuffers& buffers, Passes passes);
+
+ private:
+  struct Entry {
+    std::shared_ptr<const RayMesh> mesh;
+    std::uint64_t last_used = 0;
+  };
+  Result<std::shared_ptr<const RayMesh>> mesh(const std::string& sha256,
+                                              const MeshBuffers& buffers);
+  /// Lets go of what was not used for longest.
+  void trim();
+
+  int threads_;
+  std::mutex mutex_;  ///< guards what follows
+  std::map<std::string, Entry> meshes_;
+  std::uint64_t uses_ = 0;
+  std::size_t triangles_ = 0;  ///< of all meshes_
+};
+
+/// The pinhole of a frame, its depth of field left aside.
+PixelCamera pixel_camera(const FrameSpec& spec);
+
+}  // namespace seedframe

@@ -1,0 +1,34 @@
+// Whether Blender rendered what its twin says: the index pass against the twin, pixel by pixel.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/twin_tally.h"
+#include "image/image.h"
+#include "scene/frame_spec.h"
+
+namespace seedframe {
+
+struct TwinTolerance {
+  double inside_share = 1e-4;  ///< of all pixels
+  /// Of an instance's outline, and 8 pixels are always allowed: an instance that is a fraction of a
+  /// pixel out of place differs in no other way.
+  double outline_share = 0.1;
+};
+
+struct TwinVerdict {
+  TwinTally tally;
+  /// Empty when the images agree well enough; else what is wrong and with which instance.
+  std::string complaint;
+};
+
+/// Both images are of the spec's size.
+TwinVerdict compare_with_twin(const FrameSpec& spec, const Image<std::uint16_t>& rendered,
+                              const Image<std::uint16_t>& twin, const TwinTolerance& tolerance);
+
+/// Grey: 0 where the images agree, 128 at edges, 255 inside.
+Image<std::uint8_t> difference_image(const Image<std::uint16_t>& rendered,
+                                     const Image<std::uint16_t>& twin);
+
+}  // namespace seedframe

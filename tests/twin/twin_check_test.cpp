@@ -1,0 +1,116 @@
+#include "twin/twin_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/twin/scenes.h"
+
+namespace seedframe {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using Ids = Image<std::uint16_t>;
+
+constexpr TwinTolerance kDefault;
+
+FrameSpec spec_of_two() {
+  const CubeBuffer cube;
+  FrameSpec spec = empty_spec();
+  spec.instances = {cube_at(cube, 3, 0, 0, -10), cube_at(cube, 7, 0, 0, -10)};
+  return spec;
+}
+
+/// 160 × 120 with a rectangle of one id.
+Ids with_rectangle(int x, int y, int width, int height, std::uint16_t id, Ids ids = Ids(160, 120)) {
+  for (int row = y; row < y + height; ++row) {
+    for (int column = x; column < x + width; ++column) ids.at(row, column) = id;
+  }
+  return ids;
+}
+
+TEST(TwinCheck, EqualImagesAgree) {
+  const Ids ids = with_rectangle(20, 20, 60, 50, 3);
+  const TwinVerdict verdict = compare_with_twin(spec_of_two(), ids, ids, kDefault);
+  EXPECT_THAT(verdict.complaint, IsEmpty());
+  EXPECT_EQ(verdict.tally, (TwinTally{160 * 120, 0, 0}));
+}
+
+TEST(TwinCheck, AFewPixelsAtAnOutlineAreCountedAndAllowed) {
+  const Ids twin = with_rectangle(20, 20, 60, 50, 3);
+  Ids rendered = twin;
+  rendered.at(20, 30) = 0;
+  rendered.at(19, 40) = 3;
+  const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault);
+  EXPECT_THAT(verdict.complaint, IsEmpty());
+  EXPECT_EQ(verdict.tally, (TwinTally{160 * 120, 0, 2}));
+}
+
+TEST(TwinCheck, AHoleInAnInstanceIsInside) {
+  const Ids twin = with_rectangle(20, 20, 60, 50, 3);
+  const Ids rendered = with_rectangle(40, 40, 2, 1, 0, twin);
+  const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault);
+  EXPECT_EQ(verdict.tally, (TwinTally{160 * 120, 2, 0}));
+  EXPECT_THAT(verdict.complaint, HasSubstr("2 of 19200 pixels"));
+  EXPECT_THAT(verdict.complaint, HasSubstr("'cube/3' (id 3)"));
+  const TwinVerdict loose = compare_with_twin(spec_of_two(), rendered, twin, {2e-4, 0.1});
+  EXPECT_THAT(loose.complaint, IsEmpty()) << "3.84 pixels are allowed";
+}
+
+TEST(TwinCheck, AMissingObjectIsCaught) {
+  const Ids twin = with_rectangle(90, 20, 30, 30, 7, with_rectangle(20, 20, 60, 50, 3));
+  const Ids rendered = with_rectangle(20, 20, 60, 50, 3);
+  const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault);
+  EXPECT_THAT(verdict.complaint, HasSubstr("'cube/7' (id 7)"));
+  EXPECT_THAT(verdict.complaint, HasSubstr("missing from the picture"));
+}
+
+TEST(TwinCheck, AThingThatTheTwinDoesNotSeeIsCaught) {
+  const Ids twin = with_rectangle(20, 20, 60, 50, 3);
+  const Ids rendered = with_rectangle(90, 20, 30, 30, 7, twin);
+  const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault);
+  EXPECT_THAT(verdict.complaint, HasSubstr("the twin does not see it"));
+}
+
+TEST(TwinCheck, AnObjectOnePixelOutOfPlaceIsCaughtThoughOnlyEdgesDiffer) {
+  const Ids twin = with_rectangle(20, 20, 60, 50, 3);
+  const Ids rendered = with_rectangle(21, 20, 60, 50, 3);
+  const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault);
+  EXPECT_EQ(verdict.tally, (TwinTally{160 * 120, 0, 100}));
+  EXPECT_THAT(verdict.complaint, HasSubstr("outline"));
+  EXPECT_THAT(verdict.complaint, HasSubstr("'cube/3'"));
+}
+
+TEST(TwinCheck, ATinyObjectOutOfPlaceIsWithinWhatIsAlwaysAllowed) {
+  const Ids twin = with_rectangle(20, 20, 3, 3, 3);
+  const Ids rendered = with_rectangle(21, 20, 3, 3, 3);
+  EXPECT_THAT(compare_with_twin(spec_of_two(), rendered, twin, kDefault).complaint, IsEmpty());
+}
+
+TEST(TwinCheck, TwoInstancesThatSwappedIdsAreCaught) {
+  const Ids twin = with_rectangle(90, 20, 30, 30, 7, with_rectangle(20, 20, 60, 50, 3));
+  const Ids rendered = with_rectangle(90, 20, 30, 30, 3, with_rectangle(20, 20, 60, 50, 7));
+  EXPECT_FALSE(compare_with_twin(spec_of_two(), rendered, twin, kDefault).complaint.empty());
+}
+
+TEST(TwinCheck, BordersOfTheImageAreNoOutline) {
+  const Ids twin = with_rectangle(0, 0, 160, 120, 3);
+  Ids rendered = twin;
+  rendered.at(0, 0) = 7;  // the twin has no 7 next to it: not an outline that rounds
+  EXPECT_EQ(compare_with_twin(spec_of_two(), rendered, twin, kDefault).tally,
+            (TwinTally{160 * 120, 1, 0}));
+}
+
+TEST(TwinCheck, TheDifferenceImageShowsWhere) {
+  const Ids twin = with_rectangle(20, 20, 60, 50, 3);
+  Ids rendered = twin;
+  rendered.at(20, 30) = 0;
+  rendered.at(45, 45) = 0;
+  const Image<std::uint8_t> difference = difference_image(rendered, twin);
+  EXPECT_EQ(difference.at(20, 30), 128);
+  EXPECT_EQ(difference.at(45, 45), 255);
+  EXPECT_EQ(std::count(difference.values.begin(), difference.values.end(), 0), 160 * 120 - 2);
+}
+
+}  // namespace
+}  // namespace seedframe
