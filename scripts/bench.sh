@@ -1,13 +1,25 @@
 #!/bin/sh
-# The benchmarks, into results/bench: how fast configs are expanded, what submit costs above a bare loop in Blender, and
-# a worker's memory over 1,000 frames. Takes about 8 minutes on two idle cores; on a busy machine longer, and then it measures the company.
+# The benchmarks, into results/: how fast configs are expanded, what the twin costs and where it agrees with Cycles, what submit costs above
+# a bare loop in Blender, and a worker's memory over 1,000 frames. Takes about 15 minutes on two idle cores; on a busy machine longer, and then
+# it measures the company.
+#
+#   scripts/bench.sh               all
+#   scripts/bench.sh NAME…         of expansion, twin, stability, overhead, memory
 set -eu
 cd "$(dirname "$0")/.."
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
-ninja --quiet -C build/release seedframe bench_expansion
-mkdir -p results/bench
+ninja --quiet -C build/release seedframe bench_expansion bench_twin stability
+mkdir -p results/bench results/stability
+[ $# -gt 0 ] || set -- expansion twin stability overhead memory
 failed=0
-tests/bench/expansion.py --report results/bench/expansion.md || failed=1
-tests/bench/overhead.py --report results/bench/overhead.md || failed=1
-tests/bench/worker_memory.py --report results/bench/memory.md || failed=1
+for name in "$@"; do
+  case $name in
+    expansion) tests/bench/expansion.py --report results/bench/expansion.md ;;
+    twin) tests/bench/twin.py --report results/bench/twin.md ;;
+    stability) tests/stability/stability.py --report results/stability/twin.md ;;
+    overhead) tests/bench/overhead.py --report results/bench/overhead.md ;;
+    memory) tests/bench/worker_memory.py --report results/bench/memory.md ;;
+    *) echo "bench.sh: there is no benchmark '$name'" >&2; exit 2 ;;
+  esac || failed=1
+done
 exit $failed

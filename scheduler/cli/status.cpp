@@ -81,20 +81,30 @@ std::string twin_text(const TwinSummary& twin) {
       twin.frames, twin.sum.pixels, twin.sum.inside_px, twin.sum.edge_px, twin.frames_differing);
 }
 
+void print_timings(const AttemptTimings& timings, const FrameCounts& counts) {
+  const bool rendered = timings.render_s > 0.0;  // else there is no worker, only the twin
+  const double frame_s = rendered ? timings.build_s + timings.render_s : timings.finish_s;
+  if (rendered) {
+    fmt::print(
+        "a frame takes a worker {:.3f} s ({:.3f} s of it to build the scene) and {:.3f} s "
+        "beside it\n",
+        frame_s, timings.build_s, timings.finish_s);
+  } else {
+    fmt::print("a frame takes a thread {:.3f} s\n", frame_s);
+  }
+  const auto left = static_cast<double>(counts.pending + counts.running);
+  if (left > 0) {
+    fmt::print("left for one {}: {}\n", rendered ? "worker" : "thread",
+               duration_text(left * frame_s));
+  }
+}
+
 void print_status(const CampaignStatus& status, const std::string& folder) {
   const FrameCounts& counts = status.counts;
   fmt::print("{} frames: {} done, {} running, {} pending, {} failed{}\n", counts.total(),
              counts.done, counts.running, counts.pending, counts.failed,
              status.running ? " (a scheduler is at work)" : "");
-  if (status.timings) {
-    const double frame_s = status.timings->build_s + status.timings->render_s;
-    fmt::print(
-        "a frame takes a worker {:.3f} s ({:.3f} s of it to build the scene) and {:.3f} s "
-        "beside it\n",
-        frame_s, status.timings->build_s, status.timings->finish_s);
-    const auto left = static_cast<double>(counts.pending + counts.running);
-    if (left > 0) fmt::print("left for one worker: {}\n", duration_text(left * frame_s));
-  }
+  if (status.timings) print_timings(*status.timings, counts);
   if (status.twin.frames > 0) fmt::print("{}", twin_text(status.twin));
   for (const AttemptRow& row : status.failures) {
     fmt::print("frame {}, attempt {}: {}\n", row.frame, row.attempt, row.message);

@@ -1,67 +1,116 @@
 // What the twin of a frame costs, on one core (scripts/bench.sh).
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
 #include <benchmark/benchmark.h>
 
 #include "campaign/prepared_campaign.h"
+#include "tests/geometry/example_meshes.h"
 #include "twin/twin.h"
+#include "twin/twin_check.h"
 
 namespace seedframe {
 namespace {
 
+constexpr auto kIdsOnly = TwinTracer::Passes::kIdsOnly;
+constexpr auto kAsked = TwinTracer::Passes::kAsked;
+
 struct Frame {
   FrameSpec spec;
   MeshBuffers buffers;
-  std::size_t triangles = 0;
 };
 
-/// The first frame of the demo config at a size, with what its instances need.
-Frame demo_frame(int width, int height) {
+/// The frame of the demo config with the most instances, at a size.
+Frame demo_frame(const benchmark::State& state) {
   const std::string file = std::string(SEEDFRAME_HOME) + "/configs/parts.yaml";
   auto source = read_source(file,
-                            {{"render.width", std::to_string(width)},
-                             {"render.height", std::to_string(height)}},
+                            {{"render.width", std::to_string(state.range(0))},
+                             {"render.height", std::to_string(state.range(1))}},
                             SEEDFRAME_HOME);
   auto campaign = prepare(std::move(*source));
   if (!campaign) {
     std::fprintf(stderr, "%s\n", campaign.error().message.c_str());
     std::exit(1);
   }
-  auto expanded = campaign->expander.expand(0);
-  Frame frame{expanded->spec, campaign->expander.mesh_buffers(), 0};
-  for (const InstanceSpec& instance : frame.spec.instances) {
-    if (!frame.buffers.contains(instance.mesh)) {
-      frame.buffers[instance.mesh] = expanded->ground_buffer;
-    }
+  Frame most;
+  for (std::int64_t i = 0; i < campaign->expander.frame_count(); ++i) {
+    const auto expanded = campaign->expander.expand(i);
+    if (expanded->spec.instances.size() <= most.spec.instances.size()) continue;
+    most = {expanded->spec, campaign->expander.mesh_buffers_of(*expanded)};
   }
-  return frame;
+  return most;
 }
 
-/// All trees built anew.
-void cold(benchmark::State& state) {
-  const Frame frame = demo_frame(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
-  for (auto _ : state) benchmark::DoNotOptimize(TwinTracer().trace(frame.spec, frame.buffers));
+/// Every tree built anew, those of the meshes too.
+void first_frame(benchmark::State& state) {
+  const Frame frame = demo_frame(state);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(TwinTracer().trace(frame.spec, frame.buffers, kIdsOnly));
+  }
 }
 
-/// The trees of the meshes are there, as from the second frame of a campaign on.
-void warm(benchmark::State& state) {
-  const Frame frame = demo_frame(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+/// As from the second frame of a campaign on: the tree of the instances is built, those of the
+/// meshes are there.
+void trace(benchmark::State& state, TwinTracer::Passes passes) {
+  const Frame frame = demo_frame(state);
   TwinTracer tracer;
-  for (auto _ : state) benchmark::DoNotOptimize(tracer.trace(frame.spec, frame.buffers));
+  std::size_t bytes = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(tracer.trace(frame.spec, frame.buffers, passes));
+  bytes = ray_tracing_bytes();
+  state.counters["instances"] = static_cast<double>(frame.spec.instances.size());
+  state.counters["bytes"] = static_cast<double>(bytes);
+}
+void ids(benchmark::State& state) { trace(state, kIdsOnly); }
+void ids_depth_normals(benchmark::State& state) { trace(state, kAsked); }
+
+void silhouettes(benchmark::State& state) {
+  const Frame frame = demo_frame(state);
+  TwinTracer tracer;
+  const auto twin = tracer.trace(frame.spec, frame.buffers, kIdsOnly);
+  for (auto _ : state) benchmark::DoNotOptimize(twin->silhouettes(twin->instance_ids));
   state.counters["instances"] = static_cast<double>(frame.spec.instances.size());
 }
 
-void silhouettes(benchmark::State& state) {
-  const Frame frame = demo_frame(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+/// All that a rendered frame costs more because of its twin.
+void check(benchmark::State& state) {
+  const Frame frame = demo_frame(state);
   TwinTracer tracer;
-  const auto twin = tracer.trace(frame.spec, frame.buffers);
-  for (auto _ : state) benchmark::DoNotOptimize(twin->silhouettes(twin->instance_ids));
+  for (auto _ : state) {
+    const auto twin = tracer.trace(frame.spec, frame.buffers, kIdsOnly);
+    Image<std::uint16_t> rendered = twin->instance_ids;
+    rendered.values[0] ^= 1;  // so that nothing is taken for equal at once
+    benchmark::DoNotOptimize(compare_with_twin(frame.spec, rendered, twin->instance_ids, {}));
+    benchmark::DoNotOptimize(twin->silhouettes(rendered));
+  }
 }
 
-BENCHMARK(cold)->Args({640, 480})->Args({128, 128})->Unit(benchmark::kMillisecond);
-BENCHMARK(warm)->Args({640, 480})->Args({128, 128})->Unit(benchmark::kMillisecond);
-BENCHMARK(silhouettes)->Args({640, 480})->Args({128, 128})->Unit(benchmark::kMillisecond);
+/// Embree's bytes for a mesh of 2 n² triangles, and for 1,000 instances of it.
+void memory(benchmark::State& state) {
+  const auto n = static_cast<std::uint32_t>(state.range(0));
+  const Mesh mesh = example_patch(n);
+  const PixelCamera camera{16, 16, {16, 16}, {7.5, 7.5}, 0.01, 100};
+  double once = 0, instanced = 0;
+  for (auto _ : state) {
+    const std::size_t before = ray_tracing_bytes();
+    const auto tree = std::make_shared<const RayMesh>(mesh);
+    once = static_cast<double>(ray_tracing_bytes() - before);
+    const RayScene scene(camera, std::vector<RayInstance>(1000, {tree}));
+    instanced = static_cast<double>(ray_tracing_bytes() - before) - once;
+  }
+  state.counters["bytes_per_triangle"] = once / (2.0 * n * n);
+  state.counters["bytes_per_instance"] = instanced / 1000.0;
+}
+
+void sizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Args({128, 128})->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(first_frame)->Apply(sizes);
+BENCHMARK(ids)->Apply(sizes);
+BENCHMARK(ids_depth_normals)->Apply(sizes);
+BENCHMARK(silhouettes)->Apply(sizes);
+BENCHMARK(check)->Apply(sizes)->Args({320, 240});
+BENCHMARK(memory)->Arg(16)->Arg(64)->Arg(256)->Arg(1024)->Iterations(1);
 
 }  // namespace
 }  // namespace seedframe
