@@ -8,10 +8,13 @@
 #include <fmt/format.h>
 
 #include "base/canonical_json.h"
+#include "cli/asset_report.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
+#include "geometry/asset_check.h"
 #include "geometry/asset_files.h"
+#include "geometry/asset_import.h"
 #include "geometry/asset_library.h"
 
 namespace seedframe {
@@ -23,12 +26,11 @@ namespace fs = std::filesystem;
 struct Options {
   std::string root;
   std::vector<std::string> files;
-  std::string name;
+  std::vector<std::string> names;
   std::optional<std::string> category;
-  std::string description;
-  double scale = 1.0;
-  double smooth_angle_deg = 30.0;
-  bool force = false;
+  std::string up;
+  AssetImport import;
+  AssetCheck check;
   bool json = false;
 
   fs::path library_root() const {
@@ -45,84 +47,74 @@ std::string name_from_file(const fs::path& file) {
   return name;
 }
 
-std::string size_text(const BoundingBox& box) {
-  const Eigen::Vector3d mm = 1000.0 * box.size();
-  return fmt::format("{:.1f} × {:.1f} × {:.1f} mm", mm.x(), mm.y(), mm.z());
-}
-
-std::string summary(const Asset& asset) {
-  return fmt::format("{:<20} {:>7} triangles  {:>8.1f} KiB  {}", asset.name,
-                     asset.mesh.triangles.size(), static_cast<double>(asset.bytes) / 1024.0,
-                     size_text(asset.box));
-}
-
-Json to_json(const Asset& asset) {
-  const Eigen::Vector3d size = asset.box.size();
-  return {{"name", asset.name},
-          {"category", asset.category},
-          {"description", asset.description},
-          {"triangles", asset.mesh.triangles.size()},
-          {"vertices", asset.mesh.positions.size()},
-          {"bytes", asset.bytes},
-          {"size_m", {size.x(), size.y(), size.z()}},
-          {"slots", asset.mesh.slot_names},
-          {"mesh_sha256", asset.mesh_sha256},
-          {"buffer_sha256", asset.buffer_sha256}};
-}
-
 int import_files(const Options& options) {
-  if (!options.name.empty() && options.files.size() > 1) {
+  if (!options.import.name.empty() && options.files.size() > 1) {
     return report({ErrorKind::kInput, "--name names one asset: import the files one by one"});
   }
+  Json reports = Json::array();
   for (const std::string& file : options.files) {
-    const std::string name = options.name.empty() ? name_from_file(file) : options.name;
-    const Status imported = import_asset({.file = file,
-                                          .root = options.library_root(),
-                                          .name = name,
-                                          .category = options.category.value_or(name),
-                                          .description = options.description,
-                                          .scale = options.scale,
-                                          .smooth_angle_deg = options.smooth_angle_deg,
-                                          .replace = options.force});
+    AssetImport request = options.import;
+    request.file = file;
+    request.root = options.library_root();
+    if (request.name.empty()) request.name = name_from_file(file);
+    request.category = options.category.value_or(request.name);
+    if (!options.up.empty()) request.up = options.up == "y" ? UpAxis::kY : UpAxis::kZ;
+    const auto imported = import_asset(request);
     if (!imported) return report(imported.error());
-    const auto asset = read_asset(options.library_root() / name);
-    if (!asset) return report(asset.error());
-    fmt::print("{}\n", summary(*asset));
+    if (options.json) {
+      reports.push_back(import_json(*imported));
+    } else {
+      fmt::print("{}", import_text(*imported, !request.dry_run));
+    }
   }
+  if (options.json) fmt::print("{}", readable_json(reports));
   return 0;
+}
+
+// Names of the library's assets, those that the user named or all.
+Result<std::vector<std::string>> chosen_assets(const Options& options) {
+  const auto library = AssetLibrary::open({options.library_root()});
+  if (!library) return forward_error(library);
+  if (options.names.empty()) return library->names();
+  for (const std::string& name : options.names) {
+    if (const auto folder = library->folder(name); !folder) return forward_error(folder);
+  }
+  return options.names;
 }
 
 int list_assets(const Options& options) {
-  const auto library = AssetLibrary::open({options.library_root()});
-  if (!library) return report(library.error());
+  const auto names = chosen_assets(options);
+  if (!names) return report(names.error());
   Json list = Json::array();
-  for (const std::string& name : library->names()) {
-    const auto asset = library->load(name);
-    if (!asset) return report(asset.error());
-    if (options.json) {
-      list.push_back(to_json(**asset));
+  int exit_code = 0;
+  for (const std::string& name : *names) {
+    const fs::path folder = options.library_root() / name;
+    const auto asset = read_asset_description(folder);
+    if (!asset) {
+      exit_code = report(asset.error());
+    } else if (options.json) {
+      list.push_back(list_json(*asset, folder));
     } else {
-      fmt::print("{}  {}\n", summary(**asset), (*asset)->description);
+      fmt::print("{}\n", list_line(*asset, folder));
     }
   }
   if (options.json) fmt::print("{}", readable_json(list));
-  return 0;
+  return exit_code;
 }
 
 // Goes on after a damaged asset, so that one run finds them all.
 int check_assets(const Options& options) {
-  const auto library = AssetLibrary::open({options.library_root()});
-  if (!library) return report(library.error());
+  const auto names = chosen_assets(options);
+  if (!names) return report(names.error());
   int exit_code = 0;
   int damaged = 0;
-  for (const std::string& name : library->names()) {
-    const auto asset = library->load(name);
-    if (asset) continue;
-    exit_code = report(asset.error());
-    ++damaged;
+  for (const std::string& name : *names) {
+    const auto faults = check_asset(options.library_root() / name, options.check);
+    for (const std::string& fault : faults) exit_code = report({ErrorKind::kCorrupt, fault});
+    if (!faults.empty()) ++damaged;
   }
-  fmt::print("{} assets in {}, {} damaged\n", library->names().size(),
-             options.library_root().string(), damaged);
+  fmt::print("{} assets in {}, {} damaged\n", names->size(), options.library_root().string(),
+             damaged);
   return exit_code;
 }
 
@@ -141,20 +133,35 @@ CLI::App* add_action(CLI::App& verb, const std::string& name, const std::string&
 }
 
 void add_import_options(CLI::App& command, Options& options) {
-  command.add_option("FILE", options.files, "OBJ files, z up")->required();
-  command.add_option("--name", options.name, "Name of the asset; without it the file's");
+  AssetImport& import = options.import;
+  command.add_option("FILE", options.files, "OBJ, PLY, STL, OFF, glTF or GLB files")->required();
+  command.add_option("--name", import.name, "Name of the asset; without it the file's");
   command.add_option("--category", options.category,
                      "Class of its labels; without it the asset's name; '' for a distractor");
-  command.add_option("--description", options.description, "One line about the asset");
-  command
-      .add_option("--scale", options.scale, "Metres per unit of the file: 0.001 for millimetres")
+  command.add_option("--description", import.description, "One line about the asset");
+  command.add_option("--scale", import.scale, "Metres per unit of the file: 0.001 for millimetres")
       ->capture_default_str();
+  command.add_option("--up", options.up, "The file's axis that points up; y for glTF, else z")
+      ->check(CLI::IsMember({"y", "z"}));
   command
-      .add_option("--smooth-angle", options.smooth_angle_deg,
+      .add_option("--smooth-angle", import.smooth_angle_deg,
                   "Edges sharper than this, in degrees, are shaded sharp")
       ->capture_default_str();
-  command.add_flag("--force", options.force, "Replace assets that exist");
-  command.footer("Example: seedframe asset import bolt.obj --scale 0.001 --category hex_bolt");
+  command
+      .add_option("--pixels", import.levels.pixels,
+                  "Pixels of its longest side in the nearest view; errors stay under 1/20 of one")
+      ->capture_default_str();
+  command
+      .add_option("--levels", import.levels.most_levels,
+                  "Coarser levels, at most; 0 to 8, each for views a quarter as large")
+      ->capture_default_str();
+  command
+      .add_option("--fill-holes", import.repair.fill_holes, "Close holes of at most so many edges")
+      ->capture_default_str();
+  command.add_flag("--force", import.replace, "Replace assets that exist");
+  command.add_flag("--dry-run,--check-only", import.dry_run, "Report only, write nothing");
+  command.add_flag("--json", options.json, "The report as JSON");
+  command.footer("Example: seedframe asset import bolt.stl --scale 0.001 --category hex_bolt");
 }
 
 }  // namespace
@@ -164,15 +171,19 @@ void add_asset_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::App* verb = app.add_subcommand("asset", "Bring meshes in, list and check them");
   verb->require_subcommand(1);
   verb->footer("Example: seedframe asset import part.obj --scale 0.001");
-  CLI::App* import = add_action(*verb, "import", "Measure, compress and keep OBJ meshes", options,
-                                on_selected, import_files);
+  CLI::App* import = add_action(*verb, "import", "Repair, measure, compress and keep meshes",
+                                options, on_selected, import_files);
   add_import_options(*import, *options);
   CLI::App* list =
       add_action(*verb, "list", "What is in the library", options, on_selected, list_assets);
+  list->add_option("NAME", options->names, "Only these assets");
   list->add_flag("--json", options->json, "As JSON");
   list->footer("Example: seedframe asset list --json");
-  CLI::App* check = add_action(*verb, "check", "Read every asset and report the damaged ones",
+  CLI::App* check = add_action(*verb, "check", "Hash, decode and measure every asset again",
                                options, on_selected, check_assets);
+  check->add_option("NAME", options->names, "Only these assets");
+  check->add_flag("--thorough", options->check.thorough,
+                  "Measure the levels' errors with a guaranteed bound: half a minute an asset");
   check->footer("Example: seedframe asset check --root my_assets");
 }
 

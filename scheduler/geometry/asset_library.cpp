@@ -1,16 +1,15 @@
 #include "geometry/asset_library.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include "base/nearest_name.h"
-#include "base/portable_math.h"
+#include "base/sha256.h"
 #include "geometry/asset_files.h"
-#include "geometry/draco_codec.h"
+#include "geometry/asset_level_file.h"
 #include "geometry/mesh_buffer.h"
-#include "geometry/obj_reader.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -39,47 +38,26 @@ Result<std::vector<std::string>> find_assets(const fs::path& root) {
   return names;
 }
 
-// The stream says how many slots it uses, asset.json how they are called.
-Status name_slots(Mesh& mesh, const AssetDescription& description, const std::string& what) {
-  if (description.slots.size() < mesh.slot_names.size()) {
-    return fail(ErrorKind::kCorrupt, "{}: the mesh uses {} material slots, but {} are named", what,
-                mesh.slot_names.size(), description.slots.size());
-  }
-  mesh.slot_names = description.slots;
-  return {};
-}
-
 }  // namespace
 
 Result<Asset> read_asset(const fs::path& folder) {
   const auto description = read_asset_description(folder);
   if (!description) return forward_error(description);
-  const fs::path mesh_path = folder / asset_files::kMesh;
-  const std::string what = mesh_path.string();
-  const auto stream = read_file(mesh_path);
-  if (!stream) return forward_error(stream);
-  Asset asset;
-  asset.mesh_sha256 = sha256_hex(*stream);
-  if (asset.mesh_sha256 != description->mesh_sha256) {
-    return fail(ErrorKind::kCorrupt,
-                "{} is damaged: its SHA-256 is {}, but {} says {}; import the asset again", what,
-                asset.mesh_sha256, asset_files::kDescription, description->mesh_sha256);
-  }
-  auto mesh = decode_draco(*stream, what);
+  auto mesh = read_level_mesh(folder, *description, 0);
   if (!mesh) return forward_error(mesh);
-  if (Status status = name_slots(*mesh, *description, what); !status) return forward_error(status);
-  if (mesh->triangles.size() != description->triangles) {
-    return fail(ErrorKind::kCorrupt, "{}: {} says {} triangles, but there are {}", what,
-                asset_files::kDescription, description->triangles, mesh->triangles.size());
-  }
-  mesh->smooth_angle_rad = portable::radians(description->smooth_angle_deg);
+  Asset asset;
   asset.name = description->name;
   asset.category = description->category;
   asset.description = description->description;
   asset.mesh = std::move(*mesh);
+  asset.mesh_sha256 = description->levels[0].sha256;
   asset.buffer = mesh_buffer(asset.mesh);
   asset.buffer_sha256 = sha256_hex(asset.buffer);
-  asset.bytes = stream->size();
+  asset.bytes = description->levels[0].bytes;
+  asset.levels.reserve(description->levels.size());
+  for (const LevelRecord& level : description->levels) {
+    asset.levels.push_back({level.triangles, level.error_m, level.sha256});
+  }
   asset.box = bounding_box(asset.mesh);
   asset.lowest = LowestPoint(asset.mesh);
   return asset;
@@ -88,7 +66,9 @@ Result<Asset> read_asset(const fs::path& folder) {
 struct AssetLibrary::State {
   std::map<std::string, fs::path> folders;
   std::mutex mutex;
-  std::map<std::string, std::shared_ptr<const Asset>> loaded;  // guarded by mutex
+  // Guarded by mutex.
+  std::map<std::string, std::shared_ptr<const Asset>> loaded;
+  std::map<std::pair<std::string, std::size_t>, std::shared_ptr<const LevelMesh>> levels;
 };
 
 AssetLibrary::AssetLibrary(std::shared_ptr<State> state) : state_(std::move(state)) {}
@@ -109,50 +89,50 @@ std::vector<std::string> AssetLibrary::names() const {
   return names;
 }
 
+Result<fs::path> AssetLibrary::folder(const std::string& name) const {
+  const auto found = state_->folders.find(name);
+  if (found != state_->folders.end()) return found->second;
+  return fail(ErrorKind::kInput, "there is no asset '{}'{}", name, did_you_mean(name, names()));
+}
+
 Result<std::shared_ptr<const Asset>> AssetLibrary::load(const std::string& name) const {
-  const auto folder = state_->folders.find(name);
-  if (folder == state_->folders.end()) {
-    return fail(ErrorKind::kInput, "there is no asset '{}'{}", name, did_you_mean(name, names()));
-  }
+  const auto asset_folder = folder(name);
+  if (!asset_folder) return forward_error(asset_folder);
   // Held while reading: two threads that want one asset must not both decode it.
   const std::lock_guard lock(state_->mutex);
   if (const auto found = state_->loaded.find(name); found != state_->loaded.end()) {
     return found->second;
   }
-  auto asset = read_asset(folder->second);
+  auto asset = read_asset(*asset_folder);
   if (!asset) return forward_error(asset);
   auto shared = std::make_shared<const Asset>(std::move(*asset));
   state_->loaded.emplace(name, shared);
   return shared;
 }
 
-Status import_asset(const AssetImport& request) {
-  if (!is_asset_name(request.name)) {
-    return fail(ErrorKind::kInput,
-                "'{}' cannot name an asset: use letters, digits, '_' and '-', 64 at most",
-                request.name);
+Result<std::shared_ptr<const LevelMesh>> AssetLibrary::load_level(const std::string& name,
+                                                                  std::size_t level) const {
+  const auto asset_folder = folder(name);
+  if (!asset_folder) return forward_error(asset_folder);
+  const std::lock_guard lock(state_->mutex);
+  const auto key = std::pair(name, level);
+  if (const auto found = state_->levels.find(key); found != state_->levels.end()) {
+    return found->second;
   }
-  if (!std::isfinite(request.scale) || request.scale <= 0.0) {
-    return fail(ErrorKind::kInput, "the scale must be more than 0 metres per unit, found {}",
-                request.scale);
+  const auto description = read_asset_description(*asset_folder);
+  if (!description) return forward_error(description);
+  if (level >= description->levels.size()) {
+    return fail(ErrorKind::kInput, "asset '{}' has {} levels of detail, there is no level {}", name,
+                description->levels.size(), level);
   }
-  if (!(request.smooth_angle_deg >= 0.0 && request.smooth_angle_deg <= 180.0)) {
-    return fail(ErrorKind::kInput, "the smoothing angle must be 0 to 180 degrees, found {}",
-                request.smooth_angle_deg);
-  }
-  const fs::path folder = request.root / request.name;
-  std::error_code error;
-  if (!request.replace && fs::exists(folder, error)) {
-    return fail(ErrorKind::kInput, "{} exists; choose another name, or replace it with --force",
-                folder.string());
-  }
-  auto mesh = read_obj(request.file);
+  auto mesh = read_level_mesh(*asset_folder, *description, level);
   if (!mesh) return forward_error(mesh);
-  for (auto& position : mesh->positions) {
-    for (float& value : position) value = static_cast<float>(value * request.scale);
-  }
-  if (Status status = check_mesh(*mesh, request.file.string()); !status) return status;
-  return write_asset(folder, *mesh, request);
+  LevelMesh read{.mesh = std::move(*mesh), .buffer = {}, .buffer_sha256 = {}};
+  read.buffer = mesh_buffer(read.mesh);
+  read.buffer_sha256 = sha256_hex(read.buffer);
+  auto shared = std::make_shared<const LevelMesh>(std::move(read));
+  state_->levels.emplace(key, shared);
+  return shared;
 }
 
 }  // namespace seedframe

@@ -12,15 +12,30 @@
 
 namespace seedframe {
 
+/// A stored version of an asset's mesh. Level 0 is the mesh itself; see StoredLevel.
+struct LevelOfDetail {
+  std::uint64_t triangles = 0;
+  double error_m = 0.0;  ///< from level 0 for the others, from the imported mesh for level 0
+  std::string sha256;    ///< of its file
+};
+
+/// A level with all that a frame needs of it.
+struct LevelMesh {
+  Mesh mesh;
+  std::string buffer;         ///< mesh_buffer(mesh), as a worker reads it
+  std::string buffer_sha256;  ///< the mesh's name in frame specs
+};
+
 struct Asset {
   std::string name;
   std::string category;     ///< empty for a distractor
   std::string description;  ///< one line, for people
   Mesh mesh;
-  std::string buffer;         ///< mesh_buffer(mesh), as a worker reads it
-  std::string buffer_sha256;  ///< the mesh's name in frame specs
-  std::string mesh_sha256;    ///< of mesh.drc, for provenance
-  std::uint64_t bytes = 0;    ///< of mesh.drc
+  std::string buffer;                 ///< mesh_buffer(mesh), as a worker reads it
+  std::string buffer_sha256;          ///< the mesh's name in frame specs
+  std::string mesh_sha256;            ///< of mesh.drc, for provenance
+  std::uint64_t bytes = 0;            ///< of mesh.drc
+  std::vector<LevelOfDetail> levels;  ///< at least one, finest first
   BoundingBox box;
   LowestPoint lowest;
 
@@ -38,9 +53,17 @@ class AssetLibrary {
   /// Sorted.
   std::vector<std::string> names() const;
 
+  /// An unknown name is an error with the nearest known one (kInput).
+  Result<std::filesystem::path> folder(const std::string& name) const;
+
   /// Reads, checks and keeps an asset. An unknown name is an error with the nearest known one
   /// (kInput); a file that is not what asset.json says is an error (kCorrupt).
   Result<std::shared_ptr<const Asset>> load(const std::string& name) const;
+
+  /// Reads, checks and keeps levels[level] of an asset, as load does. Level 0 is the asset's own
+  /// mesh again. A level that there is not is an error (kInput).
+  Result<std::shared_ptr<const LevelMesh>> load_level(const std::string& name,
+                                                      std::size_t level) const;
 
  private:
   struct State;
@@ -49,21 +72,7 @@ class AssetLibrary {
   std::shared_ptr<State> state_;
 };
 
-/// Reads one asset's folder, whatever its library.
+/// Reads one asset's folder, whatever its library; of its levels only the first.
 Result<Asset> read_asset(const std::filesystem::path& folder);
-
-struct AssetImport {
-  std::filesystem::path file;  ///< an OBJ file
-  std::filesystem::path root;  ///< made if it does not exist
-  std::string name;            ///< of the new folder: letters, digits, '_' and '-'
-  std::string category;        ///< empty for a distractor
-  std::string description;
-  double scale = 1.0;              ///< metres per unit of the file
-  double smooth_angle_deg = 30.0;  ///< 0 to 180
-  bool replace = false;            ///< an existing asset of that name is an error otherwise
-};
-
-/// Reads, checks, compresses and writes an asset; it appears whole or not at all.
-Status import_asset(const AssetImport& request);
 
 }  // namespace seedframe

@@ -9,6 +9,8 @@
 #include "base/files.h"
 #include "base/portable_math.h"
 #include "base/sha256.h"
+#include "geometry/asset_check.h"
+#include "geometry/asset_import.h"
 #include "geometry/mesh_buffer.h"
 #include "scratch_folder.h"
 
@@ -54,8 +56,12 @@ class Library : public ::testing::Test {
     const fs::path path = root() / "part" / "asset.json";
     const std::string before = *read_file(path);
     Json json = *parse_json(before, "asset.json");
-    json[key] = value;
-    if (value.is_null()) json.erase(key);
+    if (key.starts_with('/')) {
+      json[Json::json_pointer(key)] = value;
+    } else {
+      json[key] = value;
+      if (value.is_null()) json.erase(key);
+    }
     EXPECT_TRUE(write_file(path, readable_json(json)));
     const auto asset = AssetLibrary::open({root()})->load("part");
     EXPECT_FALSE(asset) << key;
@@ -172,17 +178,22 @@ TEST_F(Library, ADamagedMeshIsAnErrorWhateverTheDamage) {
 }
 
 TEST_F(Library, ADamagedDescriptionIsAnErrorThatNamesTheKey) {
-  EXPECT_THAT(error_after_setting("version", 2).message, HasSubstr("use a newer Seedframe"));
+  EXPECT_THAT(error_after_setting("version", 3).message, HasSubstr("use a newer Seedframe"));
+  EXPECT_THAT(error_after_setting("version", 1).message, HasSubstr("import the asset again"));
   EXPECT_THAT(error_after_setting("version", "1").message, HasSubstr("'version'"));
   EXPECT_THAT(error_after_setting("category", nullptr).message, HasSubstr("'category' is missing"));
   EXPECT_THAT(error_after_setting("name", "gear").message, HasSubstr("named 'gear'"));
-  EXPECT_THAT(error_after_setting("triangles", 5).message, HasSubstr("says 5 triangles"));
+  EXPECT_THAT(error_after_setting("/levels/0/triangles", 5).message, HasSubstr("says 5 triangles"));
   EXPECT_THAT(error_after_setting("slots", Json::array()).message, HasSubstr("'slots'"));
   EXPECT_THAT(error_after_setting("slots", Json::array({"steel"})).message,
               HasSubstr("2 material"));
+  EXPECT_THAT(error_after_setting("levels", Json::array()).message, HasSubstr("'levels'"));
+  EXPECT_THAT(error_after_setting("/levels/0/file", "../x.drc").message, HasSubstr("mesh.drc"));
+  EXPECT_THAT(error_after_setting("/measures/size_m", Json::array({1})).message,
+              HasSubstr("'size_m'"));
   EXPECT_THAT(error_after_setting("slots", 3).message, HasSubstr("'slots'"));
   EXPECT_THAT(error_after_setting("smooth_angle_deg", 999).message, HasSubstr("smooth_angle_deg"));
-  EXPECT_EQ(error_after_setting("mesh_sha256", "00").kind, ErrorKind::kCorrupt);
+  EXPECT_EQ(error_after_setting("/levels/0/sha256", "00").kind, ErrorKind::kCorrupt);
 }
 
 TEST_F(Library, EveryTruncationOfTheDescriptionIsAnError) {
@@ -194,6 +205,112 @@ TEST_F(Library, EveryTruncationOfTheDescriptionIsAnError) {
     ASSERT_TRUE(write_file(path, std::string_view(text).substr(0, length)));
     EXPECT_FALSE(AssetLibrary::open({root()})->load("part")) << length;
   }
+}
+
+// A bumpy ball of 8192 triangles, 2 m across: enough to have coarser levels.
+void write_ball(const fs::path& path) {
+  constexpr int kRings = 64;
+  std::string text;
+  for (int j = 0; j <= kRings; ++j) {
+    for (int i = 0; i < kRings; ++i) {
+      const double a = 2.0 * M_PI * i / kRings;
+      const double b = M_PI * (j + 0.5) / (kRings + 1);
+      const double r = 1.0 + 0.03 * std::sin(5.0 * a) * std::sin(3.0 * b);
+      text += fmt::format("v {} {} {}\n", r * std::sin(b) * std::cos(a),
+                          r * std::sin(b) * std::sin(a), r * std::cos(b));
+    }
+  }
+  for (int j = 0; j < kRings; ++j) {
+    for (int i = 0; i < kRings; ++i) {
+      const int here = j * kRings + i + 1;
+      const int next = j * kRings + (i + 1) % kRings + 1;
+      text += fmt::format("f {} {} {} {}\n", here, here + kRings, next + kRings, next);
+    }
+  }
+  ASSERT_TRUE(write_file(path, text));
+}
+
+TEST_F(Library, LevelsOfDetailAreReadOnDemandAndKept) {
+  write_ball(obj());
+  AssetImport ball = request("ball");
+  ball.scale = 0.1;
+  const auto report = import_asset(ball);
+  ASSERT_TRUE(report) << report.error().message;
+  const auto& levels = report->description.levels;
+  ASSERT_GE(levels.size(), 3u);
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    EXPECT_LE(levels[k].error_m, levels[k].bound_m) << k;
+    EXPECT_NEAR(levels[k].bound_m, 0.2 / (20.0 * levels[k].pixels), 0.02 * levels[k].bound_m) << k;
+    if (k > 0) {
+      EXPECT_LE(levels[k].triangles, 0.8 * levels[k - 1].triangles) << k;
+    }
+  }
+  const auto library = AssetLibrary::open({root()});
+  ASSERT_TRUE(library);
+  const auto asset = *library->load("ball");
+  ASSERT_EQ(asset->levels.size(), levels.size());
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const auto level = library->load_level("ball", k);
+    ASSERT_TRUE(level) << level.error().message;
+    EXPECT_EQ((*level)->mesh.triangles.size(), asset->levels[k].triangles);
+    EXPECT_EQ((*level)->mesh.slot_names, asset->mesh.slot_names);
+    EXPECT_EQ(level->get(), library->load_level("ball", k)->get());
+  }
+  EXPECT_EQ((*library->load_level("ball", 0))->buffer_sha256, asset->buffer_sha256);
+  EXPECT_EQ(library->load_level("ball", levels.size()).error().kind, ErrorKind::kInput);
+  EXPECT_TRUE(check_asset(root() / "ball", {.thorough = true}).empty());
+}
+
+TEST_F(Library, ChecksNameEveryFaultOfAnAsset) {
+  write_ball(obj());
+  AssetImport ball = request("ball");
+  ball.levels.most_levels = 2;
+  ASSERT_TRUE(import_asset(ball));
+  const fs::path folder = root() / "ball";
+  EXPECT_TRUE(check_asset(folder, {}).empty());
+  const std::string before = *read_file(folder / "asset.json");
+  Json json = *parse_json(before, "asset.json");
+  json["/levels/1/error_m"_json_pointer] = 1e-7;
+  json["/measures/volume_m3"_json_pointer] = 1.0;
+  json["/measures/genus"_json_pointer] = 3;
+  json["/levels/1/vertices"_json_pointer] = 7;
+  ASSERT_TRUE(write_file(folder / "asset.json", readable_json(json)));
+  const auto faults = check_asset(folder, {});
+  EXPECT_THAT(faults,
+              testing::UnorderedElementsAre(HasSubstr("'error_m'"), HasSubstr("'volume_m3'"),
+                                            HasSubstr("'genus'"), HasSubstr("'vertices'")));
+  ASSERT_TRUE(write_file(folder / "asset.json", before));
+  ASSERT_TRUE(write_file(folder / "lod1.drc", "DRACO"));
+  EXPECT_THAT(check_asset(folder, {}), ElementsAre(HasSubstr("lod1.drc is damaged")));
+}
+
+TEST_F(Library, ADryRunWritesNothing) {
+  AssetImport dry = request("part");
+  dry.dry_run = true;
+  const auto report = import_asset(dry);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->description.levels[0].triangles, 4u);
+  EXPECT_FALSE(fs::exists(root()));
+}
+
+TEST_F(Library, WarnsOfSizesThatAreUnlikelyAndOfOpenSurfaces) {
+  AssetImport large = request("part");
+  large.dry_run = true;
+  large.scale = 50.0;
+  EXPECT_THAT(import_asset(large)->warnings, ElementsAre(HasSubstr("try --scale 0.05")));
+  ASSERT_TRUE(write_file(obj(), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  EXPECT_THAT(import_asset(large)->warnings, ElementsAre(HasSubstr("open (3 border edges)")));
+}
+
+TEST_F(Library, FineViewsGetMoreBitsACoordinate) {
+  AssetImport fine = request("part");
+  fine.dry_run = true;
+  EXPECT_EQ(import_asset(fine)->description.levels[0].position_bits, 16);
+  fine.levels.pixels = 16384.0;
+  const auto report = import_asset(fine);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->description.levels[0].position_bits, 19);
+  EXPECT_LE(report->description.levels[0].error_m, report->description.levels[0].bound_m);
 }
 
 TEST_F(Library, ThreadsShareOneCopy) {

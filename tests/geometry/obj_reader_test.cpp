@@ -69,13 +69,6 @@ TEST_F(ObjReader, TakesCarriageReturnsContinuedLinesColoursAndNoLastNewline) {
   EXPECT_EQ(mesh->triangles.size(), 1u);
 }
 
-TEST_F(ObjReader, DropsVerticesAndCornersThatNobodySees) {
-  const auto mesh = read("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\nf 2 2 3\n");
-  ASSERT_TRUE(mesh) << mesh.error().message;
-  EXPECT_EQ(mesh->positions.size(), 3u);
-  EXPECT_EQ(mesh->triangles.size(), 1u);
-}
-
 TEST_F(ObjReader, NamesTheLineOfWhatIsWrong) {
   expect_error("v 0 0 0\nv 1 abc 0\n", "part.obj:2", "'abc'");
   expect_error("v 0 0 0\nv 1 0\n", "part.obj:2", "at least 3 numbers, found 2");

@@ -1,0 +1,27 @@
+// Where CGAL's exceptions end.
+#pragma once
+
+#include <exception>
+#include <string>
+#include <utility>
+
+#include <CGAL/assertions.h>
+
+#include "base/error.h"
+
+namespace seedframe {
+
+/// Calls `function`, which returns a Result or a Status; what CGAL throws, from a violated
+/// precondition to too little memory, becomes an error (kInput) that says what was tried.
+template <class Function>
+auto guard_cgal(const std::string& what, Function&& function) -> decltype(function()) {
+  // The default, but a process may have set otherwise: an abort is no answer to a strange mesh.
+  CGAL::set_error_behaviour(CGAL::THROW_EXCEPTION);
+  try {
+    return std::forward<Function>(function)();
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::kInput, "{} failed: {}", what, error.what());
+  }
+}
+
+}  // namespace seedframe
