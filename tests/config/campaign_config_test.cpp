@@ -130,6 +130,22 @@ TEST(CampaignConfig, AnAliasBombIsRefusedQuickly) {
   EXPECT_THAT(error_of(bomb), HasSubstr("more than 1000000 values"));
 }
 
+TEST(CampaignConfig, TheSourceOfLabelsMayStandAlone) {
+  const auto labels_of = [](const std::string& text) {
+    return read_campaign_config(kSmallest, "t.yaml", {{"labels", text}})->labels;
+  };
+  EXPECT_EQ(read_campaign_config(kSmallest, "t.yaml")->labels.source, LabelSource::kIndexPass);
+  EXPECT_TRUE(read_campaign_config(kSmallest, "t.yaml")->labels.check);
+  EXPECT_EQ(labels_of("geometry").source, LabelSource::kTwin);
+  EXPECT_EQ(labels_of("render").source, LabelSource::kIndexPass);
+  const LabelConfig all =
+      labels_of("{source: geometry, check: false, tolerance: 0.5, edge_tolerance: 1}");
+  EXPECT_EQ(all.source, LabelSource::kTwin);
+  EXPECT_FALSE(all.check);
+  EXPECT_DOUBLE_EQ(all.tolerance, 0.5);
+  EXPECT_DOUBLE_EQ(all.edge_tolerance, 1.0);
+}
+
 TEST(Overrides, ReplaceAndAddValues) {
   const auto config = read_campaign_config(
       kSmallest, "t.yaml",

@@ -1,5 +1,6 @@
 #include "geometry/ray_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -236,6 +237,68 @@ TEST(RayScene, TurnedAndStretchedInstancesAreWhereTheyShouldBe) {
   EXPECT_NEAR(scene.count(0, kAllPixels).visible, pixels_where(0, 160, 0, 120, hit), 2.0);
   EXPECT_EQ(scene.first_hit(79, 51), 0);
   EXPECT_EQ(scene.first_hit(87, 59), -1);
+}
+
+TEST(RayScene, TracingTheImageIsAskingForEachPixel) {
+  const RayScene scene(kCamera, {ball_at(0.9, 0.3, -8), ball_at(0, 0, -5),
+                                 box_of({-9, -9, -20.1}, {0, 9, -20})});
+  const RayImage image = scene.trace({});
+  for (int y = 0; y < 120; y += 3) {
+    for (int x = 0; x < 160; ++x) {
+      ASSERT_EQ(image.instance[image.index(x, y)], scene.first_hit(x, y)) << x << " " << y;
+    }
+  }
+  EXPECT_TRUE(image.depth.empty());
+  EXPECT_TRUE(image.normals.empty());
+}
+
+TEST(RayScene, ImagesWhoseSidesAreNotWholePacketsAreTracedToTheLastPixel) {
+  const PixelCamera camera{13, 7, {10.0, 10.0}, {6.0, 3.0}, 0.01, 1000.0};
+  const RayScene scene(camera, {box_of({-99, -99, -2}, {99, 99, -1})});
+  const RayImage image = scene.trace({.depth = true});
+  ASSERT_EQ(image.instance.size(), 91U);
+  EXPECT_TRUE(std::all_of(image.instance.begin(), image.instance.end(), [](int i) { return i == 0; }));
+  EXPECT_TRUE(std::all_of(image.depth.begin(), image.depth.end(), [](float d) { return std::abs(d - 1.0F) < 1e-5F; }));
+}
+
+TEST(RayScene, ASilhouetteIsTheInstanceAlone) {
+  const std::vector<RayInstance> instances = {ball_at(0.9, 0.3, -8), ball_at(0, 0, -5),
+                                              ball_at(-3.9, 0, -5)};
+  const RayScene scene(kCamera, instances);
+  const RayImage image = scene.trace({});
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const RayScene alone(kCamera, {instances[i]});
+    const Silhouette silhouette = scene.silhouette(i, image);
+    const PixelCounts counts = alone.count(0, kAllPixels);
+    EXPECT_EQ(static_cast<double>(silhouette.area_px), counts.whole);
+    EXPECT_EQ(static_cast<double>(silhouette.in_image_px), counts.in_image);
+    ASSERT_EQ(silhouette.mask.size(), static_cast<std::size_t>(silhouette.box.area()));
+    const PixelRect& box = silhouette.box;
+    for (int y = std::max(0, box.y); y < std::min(120, box.y + box.height); ++y) {
+      for (int x = std::max(0, box.x); x < std::min(160, box.x + box.width); ++x) {
+        const auto at = static_cast<std::size_t>((y - box.y) * box.width + x - box.x);
+        ASSERT_EQ(silhouette.mask[at] != 0, alone.first_hit(x, y) == 0);
+      }
+    }
+  }
+}
+
+TEST(RayScene, ASilhouetteIsTight) {
+  const RayScene scene(kCamera, {ball_at(0.5, -0.2, -5)});
+  const Silhouette silhouette = scene.silhouette(0, scene.trace({}));
+  const PixelRect& box = silhouette.box;
+  const auto any = [&](int x0, int x1, int y0, int y1) {
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        if (silhouette.mask[static_cast<std::size_t>(y * box.width + x)] != 0) return true;
+      }
+    }
+    return false;
+  };
+  EXPECT_TRUE(any(0, 1, 0, box.height));
+  EXPECT_TRUE(any(box.width - 1, box.width, 0, box.height));
+  EXPECT_TRUE(any(0, box.width, 0, 1));
+  EXPECT_TRUE(any(0, box.width, box.height - 1, box.height));
 }
 
 TEST(RayScene, AnEmptySceneHitsNothing) {

@@ -93,9 +93,9 @@ lights:
 )");
   ASSERT_TRUE(expander) << expander.error().message;
   EXPECT_EQ(expander->expand(0)->id,
-            "a34d8301c951d5ddf6bcbd83dcbec4ca5c8265f0f852afb35baee925d0546a4f");
+            "95a2672dc4a6d9b42cda194e44eafa172fba3c68f9af3093b25a1ea2d81094d5");
   EXPECT_EQ(expander->expand(5)->id,
-            "862497215cb9644e6db8a96dc16694fd9ffdefbc5b6f3cde24328cd9b5bafeb8");
+            "735ca29f22abc24d601876d5bdecc3d915b311827aabd708ddb0e917a6d6b658");
 }
 
 TEST(SceneExpander, FirstDrawsAreWhatTheyHaveAlwaysBeen) {

@@ -186,5 +186,21 @@ TEST_F(JobStoreTest, EveryTruncationOpensWithAnErrorOrWhole) {
   }
 }
 
+TEST_F(JobStoreTest, TwinsOfDoneFramesAreSummedUp) {
+  JobStore store = store_with(4);
+  ASSERT_TRUE(store.attempt_started(0, 1, 0, 1.0));
+  ASSERT_TRUE(store.frame_done(0, 1, "a", {1000, 0, 3}, {}));
+  ASSERT_TRUE(store.adopt(1, "b", {1000, 2, 1}));
+  ASSERT_TRUE(store.adopt(2, "c", {0, 0, 0}));  // was not compared
+  const auto summary = store.twin_summary();
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->frames, 2);
+  EXPECT_EQ(summary->frames_differing, 2);
+  EXPECT_EQ(summary->sum, (TwinTally{2000, 2, 4}));
+  EXPECT_EQ((*store.frame(1))->twin, (TwinTally{1000, 2, 1}));
+  ASSERT_TRUE(store.reset(1));
+  EXPECT_EQ(store.twin_summary()->frames, 1) << "only what is done counts";
+}
+
 }  // namespace
 }  // namespace seedframe
