@@ -134,6 +134,12 @@ Result<ImportReport> import_asset(const AssetImport& request) {
   }
   warn_of_size(request, asset.measures.size_m, report.warnings);
   warn_of_surface(asset, report.warnings);
+  if (request.levels.most_levels > 0 && asset.levels[0].triangles > kMostSimplifiedTriangles) {
+    report.warnings.push_back(fmt::format(
+        "no coarser levels: they are made of up to {} triangles; simplify the mesh before it is "
+        "imported",
+        kMostSimplifiedTriangles));
+  }
   if (request.dry_run) return report;
   Status written = write_asset(request.root / request.name, asset, streams);
   if (!written) return forward_error(written);

@@ -110,7 +110,7 @@ Result<std::vector<StoredLevel>> make_levels(const Mesh& mesh, const LevelOption
   auto finest = make_level_0(mesh, options, what);
   if (!finest) return forward_error(finest);
   levels.push_back(std::move(*finest));
-  if (options.most_levels <= 0) return levels;
+  if (options.most_levels <= 0 || mesh.triangles.size() > kMostSimplifiedTriangles) return levels;
   auto simplifier = MeshSimplifier::create(levels.front().mesh, what);
   // Compression can weld what was apart by less than a step: such a mesh has one level only.
   if (!simplifier) return levels;

@@ -2,6 +2,7 @@
 // error.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ inline constexpr double kPixelShare = 1.0 / 20.0;
 /// A level that does not save this share of the triangles of the one before is left out.
 inline constexpr double kLeastSaving = 0.2;
 
+/// Meshes of more triangles get no coarser levels: the time to measure them grows from minutes to
+/// hours.
+inline constexpr std::size_t kMostSimplifiedTriangles = 1'000'000;
+
 struct StoredLevel {
   std::string stream;  ///< Draco
   Mesh mesh;           ///< as it comes out of the stream
@@ -35,7 +40,7 @@ struct StoredLevel {
 
 /// Level 0 is the mesh itself, compressed. error_m of level 0, and its sum with that of any other
 /// level, is within the level's bound_m: a level for which no such mesh was found is left out. A
-/// mesh that is no oriented manifold has no other levels.
+/// mesh that is no oriented manifold, or larger than kMostSimplifiedTriangles, has no other levels.
 Result<std::vector<StoredLevel>> make_levels(const Mesh& mesh, const LevelOptions& options,
                                              const std::string& what);
 

@@ -158,18 +158,19 @@ Status GltfFile::split_container(std::string_view bytes) {
   }
   auto json = parse_json(text, name_);
   if (!json) return fail(ErrorKind::kInput, "{}", json.error().message);
-  json_ = std::move(*json);
+  json_ = std::make_unique<const Json>(std::move(*json));
   return {};
 }
 
 Status GltfFile::check_head() const {
-  const Json* asset = json_.is_object() && json_.contains("asset") ? &json_.at("asset") : nullptr;
+  const Json* asset =
+      json_->is_object() && json_->contains("asset") ? &json_->at("asset") : nullptr;
   const Json version =
       asset != nullptr && asset->is_object() ? asset->value("version", Json()) : Json();
   if (!version.is_string() || !version.get<std::string>().starts_with("2.")) {
     return fail_at("asset.version", "expected glTF 2.0, found {}", version.dump(-1, ' ', true));
   }
-  const Json required = json_.value("extensionsRequired", Json::array());
+  const Json required = json_->value("extensionsRequired", Json::array());
   for (const Json& extension : required) {
     const std::string needed = extension.is_string() ? extension.get<std::string>() : "";
     // What materials and lights look like is no matter of a mesh.
@@ -185,8 +186,8 @@ Status GltfFile::check_head() const {
 }
 
 Result<const Json*> GltfFile::entry(const char* list, std::uint64_t index) const {
-  const auto found = json_.find(list);
-  const bool is_list = found != json_.end() && found->is_array();
+  const auto found = json_->find(list);
+  const bool is_list = found != json_->end() && found->is_array();
   if (!is_list || index >= found->size() || !(*found)[index].is_object()) {
     return fail_at("", "there is no {}[{}]: the list has {}", list, index,
                    is_list ? found->size() : 0);
@@ -195,7 +196,7 @@ Result<const Json*> GltfFile::entry(const char* list, std::uint64_t index) const
 }
 
 Status GltfFile::load_buffers(const fs::path& folder) {
-  const Json list = json_.value("buffers", Json::array());
+  const Json list = json_->value("buffers", Json::array());
   constexpr std::size_t kMostBuffers = 1024;
   if (!list.is_array() || list.size() > kMostBuffers) {
     return fail_at("buffers", "expected a list of at most {}", kMostBuffers);

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +21,7 @@ class GltfFile {
   /// Buffers are in the file itself, or files in its folder or below it; nothing else is opened.
   static Result<GltfFile> open(const std::filesystem::path& path);
 
-  const Json& json() const { return json_; }
+  const Json& json() const { return *json_; }
   const std::string& name() const { return name_; }
 
   /// json()[list][index]; an error if there is none.
@@ -50,7 +52,7 @@ class GltfFile {
   Result<std::string_view> view_bytes(std::uint64_t index, std::uint64_t& stride) const;
 
   std::string name_;
-  Json json_;
+  std::unique_ptr<const Json> json_;
   std::string chunk_;  ///< the binary chunk of a .glb
   bool has_chunk_ = false;
   std::vector<std::string> buffers_;

@@ -14,7 +14,6 @@ namespace seedframe {
 namespace {
 
 constexpr std::uint64_t kTriangles = 4;
-constexpr std::uint64_t kTriangleStrip = 5;
 constexpr std::uint64_t kTriangleFan = 6;
 
 struct Placed {
@@ -71,7 +70,7 @@ std::vector<std::array<std::uint64_t, 3>> triangles_of(std::uint64_t mode, std::
   for (std::uint64_t i = 0; i + 2 < count; ++i) {
     if (mode == kTriangleFan) {
       triangles.push_back({0, i + 1, i + 2});
-    } else if (i % 2 == 0) {
+    } else if (i % 2 == 0) {  // a strip, whose triangles turn round in turn
       triangles.push_back({i, i + 1, i + 2});
     } else {
       triangles.push_back({i + 1, i, i + 2});

@@ -30,6 +30,7 @@ TEST_F(AssetVerb, ImportReportsListShowsAndCheckAgrees) {
   EXPECT_THAT(imported.output, HasSubstr("watertight, 1 part, genus 0"));
   EXPECT_THAT(imported.output, HasSubstr("nothing to repair"));
   EXPECT_THAT(imported.output, HasSubstr("mesh.drc"));
+  std::filesystem::remove(folder_ / "lib/part/thumbnail.png");
   const Outcome listed = run({"asset", "list", "--root", "lib"});
   EXPECT_THAT(listed.output, HasSubstr("part"));
   EXPECT_THAT(listed.output, HasSubstr("4 triangles"));
@@ -47,6 +48,7 @@ TEST_F(AssetVerb, JsonReportsAreJson) {
   ASSERT_TRUE(json) << imported.output;
   EXPECT_EQ((*json)[0]["levels"][0]["triangles"], 4);
   EXPECT_TRUE((*json)[0]["warnings"].empty());
+  std::filesystem::remove(folder_ / "lib/part/thumbnail.png");
   const auto list = parse_json(run({"asset", "list", "--root", "lib", "--json"}).output, "list");
   ASSERT_TRUE(list);
   EXPECT_TRUE((*list)[0]["thumbnail"].is_null());
