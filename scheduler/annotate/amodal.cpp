@@ -7,9 +7,8 @@
 namespace seedframe {
 namespace {
 
-std::array<std::optional<std::array<double, 2>>, 8> projected_corners(const FrameSpec& spec,
-                                                                      const Affine& camera_from_object,
-                                                                      const BoundingBox& box) {
+std::array<std::optional<std::array<double, 2>>, 8> projected_corners(
+    const FrameSpec& spec, const Affine& camera_from_object, const BoundingBox& box) {
   std::array<std::optional<std::array<double, 2>>, 8> corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector3d corner((i & 1) != 0 ? box.high.x() : box.low.x(),
@@ -33,7 +32,8 @@ Pose pose_of(const Affine& camera_from_object) {
   Eigen::Matrix3d u = svd.matrixU();
   Pose pose;
   pose.rotation = u * svd.matrixV().transpose();
-  if (pose.rotation.determinant() < 0.0) {  // mirrored: the least stretched axis counts as turned round
+  if (pose.rotation.determinant() <
+      0.0) {  // mirrored: the least stretched axis counts as turned round
     u.col(2) *= -1.0;
     pose.rotation = u * svd.matrixV().transpose();
   }
@@ -56,13 +56,12 @@ void add_amodal_labels(FrameLabels& labels, const FrameSpec& spec, const Twin& t
     amodal.box = silhouette.box;
     amodal.complete = silhouette.complete;
     if (!silhouette.box.empty()) {
-      amodal.rle = rle_string(
-          encode_rle(silhouette.mask, silhouette.box.width, silhouette.box.height));
+      amodal.rle =
+          rle_string(encode_rle(silhouette.mask, silhouette.box.width, silhouette.box.height));
     }
     amodal.pose = pose_of(instance.camera_from_object);
     amodal.object_box = twin.object_box(i);
-    amodal.box_corners_px =
-        projected_corners(spec, instance.camera_from_object, amodal.object_box);
+    amodal.box_corners_px = projected_corners(spec, instance.camera_from_object, amodal.object_box);
     labels.instances[next++].amodal = std::move(amodal);
   }
 }

@@ -49,11 +49,11 @@ struct AmodalLabel {
 };
 
 struct InstanceLabel {
-  int id = 0;                ///< value in instances.png
-  int category = 0;          ///< 1-based; 0: a distractor
-  std::string name;          ///< "<object>/<copy>"
-  std::int64_t area_px = 0;  ///< visible pixels; 0: wholly hidden or out of view
-  PixelBox box;              ///< of the visible pixels; all 0 when there are none
+  int id = 0;                         ///< value in instances.png
+  int category = 0;                   ///< 1-based; 0: a distractor
+  std::string name;                   ///< "<object>/<copy>"
+  std::int64_t area_px = 0;           ///< visible pixels; 0: wholly hidden or out of view
+  PixelBox box;                       ///< of the visible pixels; all 0 when there are none
   std::optional<AmodalLabel> amodal;  ///< none: the frame has no twin
 
   /// Visible pixels as a share of the whole silhouette's (BOP's visib_fract); 0 when that is empty.
@@ -70,7 +70,8 @@ struct FrameLabels {
   std::vector<InstanceLabel> instances;
 };
 
-/// What the image shows, without amodal labels. An id in the image that the spec does not have is a kRender error.
+/// What the image shows, without amodal labels. An id in the image that the spec does not have is a
+/// kRender error.
 Result<FrameLabels> make_labels(const FrameSpec& spec, const Image<std::uint16_t>& instance_ids);
 
 /// For each pixel the category of its instance, 0 for background and distractors.

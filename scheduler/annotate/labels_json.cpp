@@ -115,11 +115,10 @@ void read_boxes(const Json& json, AmodalLabel& amodal) {
 /// Areas, box and mask must be possible together, and hold what is visible.
 Status check_amodal(const AmodalLabel& amodal, const InstanceLabel& label,
                     const std::string& what) {
-  const std::optional<Rle> rle =
-      rle_from_string(amodal.rle, amodal.box.width, amodal.box.height);
+  const std::optional<Rle> rle = rle_from_string(amodal.rle, amodal.box.width, amodal.box.height);
   if (!rle || rle_area(*rle) != amodal.area_px) {
-    return fail(ErrorKind::kCorrupt, "{}: the run lengths 'rle' do not give {} pixels in {}x{}", what,
-                amodal.area_px, amodal.box.width, amodal.box.height);
+    return fail(ErrorKind::kCorrupt, "{}: the run lengths 'rle' do not give {} pixels in {}x{}",
+                what, amodal.area_px, amodal.box.width, amodal.box.height);
   }
   if (amodal.in_image_px > amodal.area_px || label.area_px > amodal.in_image_px) {
     return fail(ErrorKind::kCorrupt,
@@ -170,7 +169,8 @@ Result<AmodalLabel> amodal_from_json(const Json& json, const InstanceLabel& labe
 
 Json to_json(const AmodalLabel& amodal) {
   Json corners = Json::array();
-  for (const auto& corner : amodal.box_corners_px) corners.push_back(corner ? Json(*corner) : Json());
+  for (const auto& corner : amodal.box_corners_px)
+    corners.push_back(corner ? Json(*corner) : Json());
   Json rotation = Json::array();
   for (Eigen::Index i = 0; i < 9; ++i) rotation.push_back(amodal.pose.rotation(i / 3, i % 3));
   const auto list = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };

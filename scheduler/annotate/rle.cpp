@@ -48,8 +48,9 @@ Rle encode_rle(std::span<const std::uint8_t> mask, int width, int height) {
   std::uint32_t run = 0;
   for (int column = 0; column < width; ++column) {
     for (int row = 0; row < height; ++row) {
-      const std::uint8_t value = mask[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                      static_cast<std::size_t>(column)];
+      const std::uint8_t value =
+          mask[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(column)];
       if (value != present) {
         rle.counts.push_back(run);
         run = 0;

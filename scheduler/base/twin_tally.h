@@ -5,8 +5,8 @@
 
 namespace seedframe {
 
-/// A pixel that differs is an edge pixel if each image has the other's id within one pixel of it: an
-/// outline that rounds another way. All others that differ are inside.
+/// A pixel that differs is an edge pixel if each image has the other's id within one pixel of it:
+/// an outline that rounds another way. All others that differ are inside.
 struct TwinTally {
   std::int64_t pixels = 0;  ///< compared; 0: no comparison was made
   std::int64_t inside_px = 0;

@@ -98,8 +98,9 @@ void write_data_passes(const std::optional<Image<float>>& depth,
                 [&](const fs::path& path) { return write_exr(path, *depth, {"Z"}); });
   }
   if (normal) {
-    writer.make(frame_files::kNormal,
-                [&](const fs::path& path) { return write_exr(path, *normal, {"X", "Y", "Z"}); });
+    writer.make(frame_files::kNormal, [&](const fs::path& path) {
+      return write_exr(path, *normal, {"X", "Y", "Z"});
+    });
   }
 }
 

@@ -1,5 +1,5 @@
-// Post-processing of one attempt: from the worker's EXR, or from the twin alone, to the files of the
-// frame.
+// Post-processing of one attempt: from the worker's EXR, or from the twin alone, to the files of
+// the frame.
 #pragma once
 
 #include <filesystem>

@@ -47,8 +47,7 @@ Result<RunSummary> LabelRun::run(const std::vector<PendingFrame>& frames) {
 }
 
 Status LabelRun::prepare_folders() const {
-  for (const fs::path& folder :
-       {campaign_.files.work() / "attempts", campaign_.files.frames()}) {
+  for (const fs::path& folder : {campaign_.files.work() / "attempts", campaign_.files.frames()}) {
     if (Status made = make_folders(folder); !made) return made;
   }
   return {};
@@ -84,8 +83,8 @@ void LabelRun::finish(const FrameJob& job, const FinishTask& task) {
     writer_->push(AttemptFailed{job, finished.error().message, true});
     return;
   }
-  writer_->push(FrameFinished{
-      job, finished->pixel_hash, finished->twin, {0.0, 0.0, finish_time.count()}});
+  writer_->push(
+      FrameFinished{job, finished->pixel_hash, finished->twin, {0.0, 0.0, finish_time.count()}});
 }
 
 void LabelRun::written(const StoreEvent& event, const Status& status) {

@@ -35,9 +35,9 @@ Result<TwinTally> read_tally(const Json& manifest, const std::string& what) {
   const auto json = json_field<Json>(manifest, "twin", what);
   if (!json) return forward_error(json);
   TwinTally tally;
-  for (const auto& [key, value] : {std::pair("pixels", &tally.pixels),
-                                   std::pair("inside_px", &tally.inside_px),
-                                   std::pair("edge_px", &tally.edge_px)}) {
+  for (const auto& [key, value] :
+       {std::pair("pixels", &tally.pixels), std::pair("inside_px", &tally.inside_px),
+        std::pair("edge_px", &tally.edge_px)}) {
     const auto number = json_field<std::int64_t>(*json, key, what);
     if (!number) return forward_error(number);
     *value = *number;

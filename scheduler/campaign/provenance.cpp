@@ -49,13 +49,11 @@ Status merge(const Json& earlier, const std::string& what, Json& json) {
 }  // namespace
 
 Json library_versions() {
-  return {{"draco", draco::kDracoVersion},
-          {"embree", ray_tracing_version()},
-          {"libpng", png_get_libpng_ver(nullptr)},
-          {"opencolorio", OCIO_NAMESPACE::GetVersion()},
-          {"openexr", OPENEXR_VERSION_STRING},
-          {"openssl", OpenSSL_version(OPENSSL_VERSION_STRING)},
-          {"sqlite", sqlite3_libversion()}};
+  return {
+      {"draco", draco::kDracoVersion},         {"embree", ray_tracing_version()},
+      {"libpng", png_get_libpng_ver(nullptr)}, {"opencolorio", OCIO_NAMESPACE::GetVersion()},
+      {"openexr", OPENEXR_VERSION_STRING},     {"openssl", OpenSSL_version(OPENSSL_VERSION_STRING)},
+      {"sqlite", sqlite3_libversion()}};
 }
 
 Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCampaign& prepared,

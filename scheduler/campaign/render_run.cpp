@@ -51,9 +51,8 @@ Result<ColorManagement> load_color_management(const CampaignConfig& config,
   return color;
 }
 
-RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared,
-                     const ColorManagement& color, Provenance& provenance,
-                     const RunOptions& options, RunObserver& observer)
+RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, const ColorManagement& color,
+                     Provenance& provenance, const RunOptions& options, RunObserver& observer)
     : campaign_(campaign),
       prepared_(prepared),
       color_(color),
@@ -143,8 +142,7 @@ void RenderRun::load_view_tables() {
   (void)color_.apply(Image<float>(1, 1, 4), view_settings(prepared_.config.image));
 }
 
-void RenderRun::finish(const FrameJob& job, const RenderTimings& timings,
-                         const FinishTask& task) {
+void RenderRun::finish(const FrameJob& job, const RenderTimings& timings, const FinishTask& task) {
   const auto start = std::chrono::steady_clock::now();
   const Result<FinishedFrame> finished = finisher_.finish(task, color_);
   const std::chrono::duration<double> finish_time = std::chrono::steady_clock::now() - start;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/canonical_json.h"
+#include "base/files.h"
 #include "cli/asset_report.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
@@ -16,6 +17,8 @@
 #include "geometry/asset_files.h"
 #include "geometry/asset_import.h"
 #include "geometry/asset_library.h"
+#include "image/png_file.h"
+#include "twin/thumbnail.h"
 
 namespace seedframe {
 namespace {
@@ -47,6 +50,14 @@ std::string name_from_file(const fs::path& file) {
   return name;
 }
 
+Status draw_thumbnail(const fs::path& folder) {
+  constexpr int kSide = 256;
+  const auto asset = read_asset(folder);
+  if (!asset) return forward_error(asset);
+  return write_file_atomically(folder / asset_files::kThumbnail,
+                               encode_png(thumbnail(asset->mesh, kSide)));
+}
+
 int import_files(const Options& options) {
   if (!options.import.name.empty() && options.files.size() > 1) {
     return report({ErrorKind::kInput, "--name names one asset: import the files one by one"});
@@ -61,6 +72,10 @@ int import_files(const Options& options) {
     if (!options.up.empty()) request.up = options.up == "y" ? UpAxis::kY : UpAxis::kZ;
     const auto imported = import_asset(request);
     if (!imported) return report(imported.error());
+    if (!request.dry_run) {
+      const Status drawn = draw_thumbnail(request.root / request.name);
+      if (!drawn) return report(drawn.error());
+    }
     if (options.json) {
       reports.push_back(import_json(*imported));
     } else {
@@ -100,6 +115,17 @@ int list_assets(const Options& options) {
   }
   if (options.json) fmt::print("{}", readable_json(list));
   return exit_code;
+}
+
+int draw_thumbnails(const Options& options) {
+  const auto names = chosen_assets(options);
+  if (!names) return report(names.error());
+  for (const std::string& name : *names) {
+    const fs::path folder = options.library_root() / name;
+    if (Status drawn = draw_thumbnail(folder); !drawn) return report(drawn.error());
+    fmt::print("{}\n", (folder / asset_files::kThumbnail).string());
+  }
+  return 0;
 }
 
 // Goes on after a damaged asset, so that one run finds them all.
@@ -185,6 +211,10 @@ void add_asset_verb(CLI::App& app, const OnSelected& on_selected) {
   check->add_flag("--thorough", options->check.thorough,
                   "Measure the levels' errors with a guaranteed bound: half a minute an asset");
   check->footer("Example: seedframe asset check --root my_assets");
+  CLI::App* draw = add_action(*verb, "thumbnail", "Draw the thumbnails anew", options, on_selected,
+                              draw_thumbnails);
+  draw->add_option("NAME", options->names, "Only these assets");
+  draw->footer("Example: seedframe asset thumbnail gear");
 }
 
 }  // namespace seedframe

@@ -180,8 +180,7 @@ int run_campaign(Campaign& campaign, PreparedCampaign& prepared, const RunSetup&
   const Result<FrameCounts> before = campaign.store.counts();
   if (!before) return report(before.error());
   if (!arguments.quiet && !frames.empty()) {
-    std::fprintf(stderr, "%s into %s: %s\n",
-                 describe_work(prepared.config, frames.size()).c_str(),
+    std::fprintf(stderr, "%s into %s: %s\n", describe_work(prepared.config, frames.size()).c_str(),
                  campaign.files.root().c_str(), describe(setup).c_str());
   }
   const auto start = std::chrono::steady_clock::now();

@@ -72,8 +72,8 @@ enum class LabelSource { kIndexPass, kTwin };
 
 struct LabelConfig {
   LabelSource source = LabelSource::kIndexPass;
-  bool check = true;          ///< compare each rendered frame with its twin
-  double tolerance = 1e-4;    ///< share of all pixels that may differ, edges apart
+  bool check = true;            ///< compare each rendered frame with its twin
+  double tolerance = 1e-4;      ///< share of all pixels that may differ, edges apart
   double edge_tolerance = 0.1;  ///< share of an instance's outline that may
   Place place;
 };
@@ -145,6 +145,7 @@ struct ObjectConfig {
   std::optional<ScatterConfig> scatter;         ///< replaces x and y of the position
   bool rest_on_ground = false;  ///< the lowest vertex is lifted to z of the position
   HiddenFrom hidden_from;
+  bool auto_detail = false;           ///< a coarser level of the asset where nobody could tell
   std::vector<ObjectConfig> objects;  ///< placed relative to each copy of this one
 };
 

@@ -114,13 +114,19 @@ ObjectConfig read_object(const std::string& name, const ConfigNode& node, Diagno
   }
   object.rest_on_ground = section.flag("rest_on_ground", false);
   object.hidden_from = read_hidden_from(section);
+  const std::string detail = section.text("detail", "full");
+  object.auto_detail = detail == "auto";
+  if (detail != "auto" && detail != "full") {
+    errors.add(node.find("detail")->place(),
+               "expected 'full' or 'auto', found " + node.find("detail")->description());
+  }
   object.objects = read_objects(section);
   if (!object.asset && object.objects.empty() && !node.find("objects")) {
     errors.add(node.place(),
                "the key 'asset' is missing (only a group, with 'objects' of its own, "
                "needs none)");
   }
-  for (const char* key : {"category", "material", "slots", "hidden_from"}) {
+  for (const char* key : {"category", "material", "slots", "hidden_from", "detail"}) {
     if (object.asset || !node.find(key)) continue;
     errors.add(node.find(key)->place(), fmt::format("{} belongs to an asset, and this group has "
                                                     "none",

@@ -126,8 +126,7 @@ std::vector<std::array<float, 3>> corner_normals(
     for (std::size_t c = 0; c < corners; ++c) result[c] = as_floats(shading.normal(c / 3));
     return result;
   }
-  const double least_cosine =
-      smooth_angle_rad >= portable::kPi ? -2.0 : std::cos(smooth_angle_rad);
+  const double least_cosine = smooth_angle_rad >= portable::kPi ? -2.0 : std::cos(smooth_angle_rad);
   CornerSets sets = shading.smooth_sets(least_cosine);
   std::vector<Vector3d> sums(corners, Vector3d::Zero());
   for (std::size_t c = 0; c < corners; ++c) {

@@ -20,7 +20,7 @@ void commit_scene(RTCScene scene);
 
 struct RayMesh::Tree {
   RTCScene scene = new_embree_scene();
-  const std::array<float, 3>* positions = nullptr;           ///< Embree's own copy
+  const std::array<float, 3>* positions = nullptr;          ///< Embree's own copy
   const std::array<std::uint32_t, 3>* triangles = nullptr;  ///< the same
   std::size_t vertex_count = 0;
   std::size_t triangle_count = 0;

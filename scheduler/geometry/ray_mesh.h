@@ -1,4 +1,5 @@
-// A mesh ready for rays: Embree's tree over its triangles, shared by all of its instances and frames.
+// A mesh ready for rays: Embree's tree over its triangles, shared by all of its instances and
+// frames.
 #pragma once
 
 #include <array>
@@ -43,8 +44,8 @@ std::size_t ray_tracing_bytes();
 /// Embree's, such as "3.13.5".
 std::string ray_tracing_version();
 
-/// The instruction set that Embree uses here: "sse2", "sse4.2", "avx" or "avx2". Never a higher one,
-/// so that all CPUs of the last ten years find the same pixels.
+/// The instruction set that Embree uses here: "sse2", "sse4.2", "avx" or "avx2". Never a higher
+/// one, so that all CPUs of the last ten years find the same pixels.
 std::string ray_tracing_isa();
 
 }  // namespace seedframe

@@ -119,7 +119,7 @@ PixelRect enlarged_canvas(const PixelCamera& camera) {
 struct RayScene::Scene {
   PixelCamera camera;
   std::vector<RayInstance> instances;
-  RTCScene all = new_embree_scene();     ///< every seen instance, by its index
+  RTCScene all = new_embree_scene();    ///< every seen instance, by its index
   mutable std::vector<RTCScene> alone;  ///< each by itself, made when asked for
 
   Scene(const PixelCamera& pixel_camera, std::vector<RayInstance> seen_and_unseen)
@@ -258,8 +258,8 @@ Silhouette RayScene::silhouette(std::size_t index, const RayImage& image,
   const PixelCamera& camera = scene_->camera;
   const RayInstance& instance = scene_->instances[index];
   if (!instance.seen) return {};
-  const PixelRect rect = union_of(
-      within, projected_rect(instance.mesh->box(), instance.camera_from_object, camera));
+  const PixelRect rect =
+      union_of(within, projected_rect(instance.mesh->box(), instance.camera_from_object, camera));
   if (rect.empty()) return {};
   std::vector<std::uint8_t> mask(static_cast<std::size_t>(rect.area()), 0);
   const RTCScene alone = scene_->only(index);
@@ -298,13 +298,12 @@ PixelCounts RayScene::count(std::size_t index, std::size_t most_rays) const {
   const RayInstance& instance = scene_->instances[index];
   PixelCounts counts;
   if (!instance.seen) return counts;
-  const PixelRect rect =
-      projected_rect(instance.mesh->box(), instance.camera_from_object, camera);
+  const PixelRect rect = projected_rect(instance.mesh->box(), instance.camera_from_object, camera);
   if (rect.empty()) return counts;
   const RTCScene alone = scene_->only(index);
-  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(
-                                   static_cast<double>(rect.area()) /
-                                   static_cast<double>(most_rays)))));
+  const int step =
+      std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(rect.area()) /
+                                                       static_cast<double>(most_rays)))));
   const double weight = static_cast<double>(step) * step;
   const int right = rect.x + rect.width;
   const int bottom = rect.y + rect.height;

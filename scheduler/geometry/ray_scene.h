@@ -74,11 +74,11 @@ struct TraceWishes {
 /// The amodal mask of one instance: what it would show if nothing stood before it and the image
 /// had no edge.
 struct Silhouette {
-  PixelRect box;                    ///< tight; empty when it shows nowhere on the canvas
-  std::vector<std::uint8_t> mask;   ///< 0 or 1 for each pixel of the box, row by row
-  std::int64_t area_px = 0;         ///< of the mask
-  std::int64_t in_image_px = 0;     ///< of it, inside the image
-  bool complete = true;             ///< false: it reaches the edge of the enlarged canvas
+  PixelRect box;                   ///< tight; empty when it shows nowhere on the canvas
+  std::vector<std::uint8_t> mask;  ///< 0 or 1 for each pixel of the box, row by row
+  std::int64_t area_px = 0;        ///< of the mask
+  std::int64_t in_image_px = 0;    ///< of it, inside the image
+  bool complete = true;            ///< false: it reaches the edge of the enlarged canvas
 };
 
 /// Pixels of one instance, at the centres of a grid over its projection.

@@ -290,6 +290,7 @@ class Compiler {
     if (config.scatter) object.scatter = compile_scatter(*config.scatter, section);
     object.rest_on_ground = config.rest_on_ground;
     object.hidden_from = config.hidden_from;
+    object.auto_detail = config.auto_detail;
     for (const ObjectConfig& child : config.objects) {
       object.objects.push_back(compile_object(child, section_name + ".objects.", scope, scope));
     }

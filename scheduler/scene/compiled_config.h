@@ -64,6 +64,7 @@ struct CompiledObject {
   std::optional<CompiledScatter> scatter;
   bool rest_on_ground = false;
   HiddenFrom hidden_from;
+  bool auto_detail = false;
   std::vector<CompiledObject> objects;
 };
 

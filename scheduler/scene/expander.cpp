@@ -185,6 +185,8 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
                                most, unmet->name));
     return tl::unexpected(*context.error);
   }
+  placer_.choose_levels(*draft, context);
+  if (context.error) return tl::unexpected(*context.error);
   result.attempts = context.frame_attempt + 1;
   result.spec = std::move(draft->spec);
   result.ground_buffer = draft->ground_buffer;
@@ -216,9 +218,7 @@ Result<ExpandedFrame> SceneExpander::expand(std::int64_t frame, const ExpansionW
 
 std::int64_t SceneExpander::frame_count() const { return program_->frame_count(); }
 
-const MeshBuffers& SceneExpander::mesh_buffers() const {
-  return program_->placer().mesh_buffers();
-}
+const MeshBuffers& SceneExpander::mesh_buffers() const { return program_->placer().mesh_buffers(); }
 
 MeshBuffers SceneExpander::mesh_buffers_of(const ExpandedFrame& frame) const {
   MeshBuffers buffers;

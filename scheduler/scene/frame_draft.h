@@ -21,6 +21,7 @@ struct PlacedInstance {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of its bounding box, world
   std::size_t section = 0;                           ///< of the config's objects
   std::shared_ptr<const Asset> asset;                ///< none: the ground
+  bool auto_detail = false;                          ///< may take a coarser level of the asset
 };
 
 struct FrameDraft {

@@ -105,8 +105,8 @@ struct ImageSettings {
 
 struct LabelSettings {
   LabelSource source = LabelSource::kIndexPass;
-  /// Whether the twin sees exactly what is rendered. Not with cut-out textures, whose holes only the
-  /// renderer knows: there the index pass rules, and is not compared.
+  /// Whether the twin sees exactly what is rendered. Not with cut-out textures, whose holes only
+  /// the renderer knows: there the index pass rules, and is not compared.
   bool twin_exact = true;
 };
 

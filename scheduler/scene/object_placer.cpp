@@ -6,6 +6,7 @@
 
 #include "base/nearest_name.h"
 #include "scene/grid.h"
+#include "scene/level_choice.h"
 
 namespace seedframe {
 namespace {
@@ -202,7 +203,25 @@ void ObjectPlacer::place_instance(const CompiledObject& object,
   instance.centre = world_from_object * asset->box.centre();
   instance.section = object.section;
   instance.asset = asset;
+  instance.auto_detail = object.auto_detail;
   pass.draft.placed.push_back(std::move(instance));
+}
+
+void ObjectPlacer::choose_levels(FrameDraft& draft, EvaluationContext& context) {
+  for (PlacedInstance& instance : draft.placed) {
+    if (!instance.auto_detail || instance.asset->levels.size() < 2) continue;
+    const Asset& asset = *instance.asset;
+    const std::size_t level =
+        level_of_detail(asset, instance.spec.camera_from_object, draft.spec.camera);
+    if (level == 0) continue;
+    const auto mesh = assets_.load_level(asset.name, level);
+    if (!mesh) {
+      context.report(Place{}, mesh.error().message);
+      return;
+    }
+    instance.spec.mesh = (*mesh)->buffer_sha256;
+    mesh_buffers_.try_emplace((*mesh)->buffer_sha256, *mesh, &(*mesh)->buffer);
+  }
 }
 
 std::vector<int> ObjectPlacer::slot_materials(const CompiledObject& object, const Asset& asset,

@@ -26,10 +26,12 @@ class ObjectPlacer {
   void place_all(const CompiledConfig& config, MaterialPicker& materials, FrameDraft& draft,
                  EvaluationContext& context);
 
+  /// Gives instances with `auto_detail` the coarsest level of their asset whose error is below 1/20
+  /// pixel at their nearest point. The camera must be known.
+  void choose_levels(FrameDraft& draft, EvaluationContext& context);
+
   /// Mesh buffers of all frames so far, by SHA-256; without those of grounds.
-  const MeshBuffers& mesh_buffers() const {
-    return mesh_buffers_;
-  }
+  const MeshBuffers& mesh_buffers() const { return mesh_buffers_; }
   /// Assets used so far: name to SHA-256 of its file, for provenance.
   const std::map<std::string, std::string>& asset_hashes() const { return asset_hashes_; }
 

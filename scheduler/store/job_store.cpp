@@ -316,10 +316,11 @@ Result<std::vector<AttemptRow>> JobStore::recent_failures(int most) const {
 }
 
 Result<TwinSummary> JobStore::twin_summary() const {
-  Statement select(database_->connection,
-                   "SELECT count(*), count(CASE WHEN twin_inside_px + twin_edge_px > 0 THEN 1 END), "
-                   "sum(twin_pixels), sum(twin_inside_px), sum(twin_edge_px) FROM frames "
-                   "WHERE state = 'done' AND twin_pixels > 0");
+  Statement select(
+      database_->connection,
+      "SELECT count(*), count(CASE WHEN twin_inside_px + twin_edge_px > 0 THEN 1 END), "
+      "sum(twin_pixels), sum(twin_inside_px), sum(twin_edge_px) FROM frames "
+      "WHERE state = 'done' AND twin_pixels > 0");
   TwinSummary summary;
   if (select.step()) {
     summary.frames = select.integer(0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "geometry/ray_scene.h"
 
@@ -41,7 +42,26 @@ double shade(const std::array<float, 3>& n) {
   const Vector3d normal(n[0], n[1], n[2]);
   const double key = std::max(0.0, normal.dot(Vector3d(-0.5, 0.6, 0.62)));
   const double fill = std::max(0.0, normal.dot(Vector3d(0.8, 0.1, 0.59)));
-  return 0.28 + 0.12 * normal.y() + 0.85 * key + 0.22 * fill;
+  return 0.22 + 0.12 * normal.y() + 0.72 * key + 0.18 * fill;
+}
+
+/// Turned to the view, scaled to fill the square from -1 to 1, and put into its middle.
+Eigen::Affine3d fitted(const Mesh& mesh, double distance) {
+  const Eigen::Matrix3d turn = view();
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Vector3d high = -low;
+  for (const auto& p : mesh.positions) {
+    const Vector3d seen = turn * Vector3d(p[0], p[1], p[2]);
+    low = low.cwiseMin(seen);
+    high = high.cwiseMax(seen);
+  }
+  const double half = std::max(0.5 * (high - low).head<2>().maxCoeff(), 1e-12);
+  Eigen::Affine3d camera_from_object = Eigen::Affine3d::Identity();
+  camera_from_object.translate(Vector3d(0, 0, -distance));
+  camera_from_object.scale(1.0 / half);
+  camera_from_object.translate(-0.5 * (low + high));
+  camera_from_object.rotate(turn);
+  return camera_from_object;
 }
 
 /// Meshes that differ in nothing but the slot that is kept, so that a hit tells the slot.
@@ -61,20 +81,13 @@ std::vector<RayInstance> slots_of(const Mesh& mesh, const Eigen::Affine3d& camer
 }  // namespace
 
 Image<std::uint8_t> thumbnail(const Mesh& mesh, int side_px) {
-  const BoundingBox box = bounding_box(mesh);
-  const double radius = std::max(0.5 * box.size().norm(), 1e-12);
-  // Everything is scaled to a ball of radius 1, seen from far enough to look undistorted.
-  constexpr double kDistance = 6.0;
-  Eigen::Affine3d camera_from_object = Eigen::Affine3d::Identity();
-  camera_from_object.translate(Vector3d(0, 0, -kDistance));
-  camera_from_object.rotate(view());
-  camera_from_object.scale(1.0 / radius);
-  camera_from_object.translate(-box.centre());
+  // So far away that parallel lines look parallel.
+  constexpr double kDistance = 30.0;
   const int side = kSubpixels * side_px;
-  const double focal = 0.48 * side * std::sqrt(kDistance * kDistance - 1.0);
+  const double focal = 0.46 * side * kDistance;
   const double middle = 0.5 * (side - 1);
   const RayScene scene({side, side, {focal, focal}, {middle, middle}, 0.1, 100.0},
-                       slots_of(mesh, camera_from_object));
+                       slots_of(mesh, fitted(mesh, kDistance)));
   const RayImage traced = scene.trace({.normals = true});
   Image<std::uint8_t> picture(side_px, side_px, 3);
   for (int y = 0; y < side_px; ++y) {

@@ -8,8 +8,9 @@
 
 namespace seedframe {
 
-/// A square RGB picture, sRGB, of the mesh from the front, right and above, shaded grey on white with each material
-/// slot in a tint of its own. The same bytes for the same mesh. Throws std::bad_alloc.
+/// A square RGB picture, sRGB, of the mesh from the front, right and above, shaded grey on white
+/// with each material slot in a tint of its own. The same bytes for the same mesh. Throws
+/// std::bad_alloc.
 Image<std::uint8_t> thumbnail(const Mesh& mesh, int side_px);
 
 }  // namespace seedframe

@@ -37,11 +37,11 @@ Twin::Twin(RayScene scene, RayImage image, std::vector<int> ids)
       scene_(std::move(scene)),
       image_(std::move(image)),
       ids_(std::move(ids)) {
-  std::transform(image_.instance.begin(), image_.instance.end(), instance_ids.values.begin(),
-                 [&](std::int32_t hit) {
-                   return static_cast<std::uint16_t>(
-                       hit < 0 ? 0 : ids_[static_cast<std::size_t>(hit)]);
-                 });
+  std::transform(
+      image_.instance.begin(), image_.instance.end(), instance_ids.values.begin(),
+      [&](std::int32_t hit) {
+        return static_cast<std::uint16_t>(hit < 0 ? 0 : ids_[static_cast<std::size_t>(hit)]);
+      });
   if (!image_.depth.empty()) depth = depth_image(image_);
   if (!image_.normals.empty()) normal = normal_image(image_);
 }
@@ -85,8 +85,7 @@ Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers
     for (const InstanceSpec& instance : spec.instances) {
       auto found = mesh(instance.mesh, buffers);
       if (!found) return forward_error(found);
-      instances.push_back({std::move(*found),
-                           Eigen::Affine3d(instance.camera_from_object.matrix()),
+      instances.push_back({std::move(*found), Eigen::Affine3d(instance.camera_from_object.matrix()),
                            !instance.hidden_from.camera});
       ids.push_back(instance.id);
     }
@@ -129,10 +128,9 @@ Result<std::shared_ptr<const RayMesh>> TwinTracer::mesh(const std::string& sha25
 void TwinTracer::trim() {
   const std::lock_guard lock(mutex_);
   while (triangles_ > kMostTriangles && meshes_.size() > 1) {
-    const auto oldest =
-        std::min_element(meshes_.begin(), meshes_.end(), [](const auto& a, const auto& b) {
-          return a.second.last_used < b.second.last_used;
-        });
+    const auto oldest = std::min_element(
+        meshes_.begin(), meshes_.end(),
+        [](const auto& a, const auto& b) { return a.second.last_used < b.second.last_used; });
     if (oldest->second.mesh) triangles_ -= oldest->second.mesh->triangle_count();
     meshes_.erase(oldest);
   }

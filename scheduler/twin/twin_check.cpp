@@ -31,7 +31,7 @@ Difference difference(const Ids& rendered, const Ids& twin, int row, int column)
   const std::uint16_t t = twin.at(row, column);
   if (r == t) return Difference::kNone;
   return near(rendered, row, column, t) && near(twin, row, column, r) ? Difference::kEdge
-                                                                     : Difference::kInside;
+                                                                      : Difference::kInside;
 }
 
 /// Pixels of one id.
@@ -115,11 +115,11 @@ TwinVerdict compare_with_twin(const FrameSpec& spec, const Ids& rendered, const 
   const double allowed = tolerance.inside_share * static_cast<double>(tally.pixels);
   if (static_cast<double>(tally.inside_px) > allowed) {
     const std::size_t worst = worst_id(tallies);
-    verdict.complaint =
-        fmt::format("{} of {} pixels of the index pass are not what the twin sees, edges apart "
-                    "({} are allowed), {}; most in {}",
-                    tally.inside_px, tally.pixels, std::floor(allowed), kHint,
-                    describe(spec, worst, tallies[worst]));
+    verdict.complaint = fmt::format(
+        "{} of {} pixels of the index pass are not what the twin sees, edges apart "
+        "({} are allowed), {}; most in {}",
+        tally.inside_px, tally.pixels, std::floor(allowed), kHint,
+        describe(spec, worst, tallies[worst]));
     return verdict;
   }
   for (std::size_t id = 1; id < kIds; ++id) {

@@ -1,4 +1,6 @@
 // What the twin of a frame costs, on one core (scripts/bench.sh).
+#include "twin/twin.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -7,7 +9,6 @@
 
 #include "campaign/prepared_campaign.h"
 #include "tests/geometry/example_meshes.h"
-#include "twin/twin.h"
 #include "twin/twin_check.h"
 
 namespace seedframe {

@@ -30,7 +30,7 @@ class TwinCampaign : public ProgramTest {
     write("twins.yaml", kConfig + ("image: {ocio_config: " + kOcioConfig + "}\n"));
   }
   Outcome label(const std::string& folder, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments = {"submit", "twins.yaml",   "-o",        folder,
+    std::vector<std::string> arguments = {"submit", "twins.yaml",      "-o",        folder,
                                           "--set",  "labels=geometry", "--blender", "/no/blender"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);

@@ -207,9 +207,9 @@ TEST_F(Library, EveryTruncationOfTheDescriptionIsAnError) {
   }
 }
 
-// A bumpy ball of 8192 triangles, 2 m across: enough to have coarser levels.
+// A bumpy ball of 2048 triangles, 2 m across: enough to have coarser levels.
 void write_ball(const fs::path& path) {
-  constexpr int kRings = 64;
+  constexpr int kRings = 32;
   std::string text;
   for (int j = 0; j <= kRings; ++j) {
     for (int i = 0; i < kRings; ++i) {

@@ -191,8 +191,7 @@ TEST(RayScene, PixelCentresAreWholeNumbersAndYPointsDown) {
   // A plate that covers the columns 100 to 109 and the rows 20 to 39, to half a pixel.
   const auto x = [](double column) { return (column - 79.5) / 100.0 * 10.0; };
   const auto y = [](double row) { return (59.5 - row) / 100.0 * 10.0; };
-  const RayScene scene(kCamera,
-                              {box_of({x(99.5), y(39.5), -10.001}, {x(109.5), y(19.5), -10})});
+  const RayScene scene(kCamera, {box_of({x(99.5), y(39.5), -10.001}, {x(109.5), y(19.5), -10})});
   EXPECT_EQ(scene.count(0, kAllPixels).visible, 200.0);
   EXPECT_EQ(scene.first_hit(100, 20), 0);
   EXPECT_EQ(scene.first_hit(109, 39), 0);
@@ -240,8 +239,8 @@ TEST(RayScene, TurnedAndStretchedInstancesAreWhereTheyShouldBe) {
 }
 
 TEST(RayScene, TracingTheImageIsAskingForEachPixel) {
-  const RayScene scene(kCamera, {ball_at(0.9, 0.3, -8), ball_at(0, 0, -5),
-                                 box_of({-9, -9, -20.1}, {0, 9, -20})});
+  const RayScene scene(
+      kCamera, {ball_at(0.9, 0.3, -8), ball_at(0, 0, -5), box_of({-9, -9, -20.1}, {0, 9, -20})});
   const RayImage image = scene.trace({});
   for (int y = 0; y < 120; y += 3) {
     for (int x = 0; x < 160; ++x) {
@@ -257,8 +256,10 @@ TEST(RayScene, ImagesWhoseSidesAreNotWholePacketsAreTracedToTheLastPixel) {
   const RayScene scene(camera, {box_of({-99, -99, -2}, {99, 99, -1})});
   const RayImage image = scene.trace({.depth = true});
   ASSERT_EQ(image.instance.size(), 91U);
-  EXPECT_TRUE(std::all_of(image.instance.begin(), image.instance.end(), [](int i) { return i == 0; }));
-  EXPECT_TRUE(std::all_of(image.depth.begin(), image.depth.end(), [](float d) { return std::abs(d - 1.0F) < 1e-5F; }));
+  EXPECT_TRUE(
+      std::all_of(image.instance.begin(), image.instance.end(), [](int i) { return i == 0; }));
+  EXPECT_TRUE(std::all_of(image.depth.begin(), image.depth.end(),
+                          [](float d) { return std::abs(d - 1.0F) < 1e-5F; }));
 }
 
 TEST(RayScene, ASilhouetteIsTheInstanceAlone) {
@@ -301,9 +302,7 @@ TEST(RayScene, ASilhouetteIsTight) {
   EXPECT_TRUE(any(0, box.width, box.height - 1, box.height));
 }
 
-TEST(RayScene, AnEmptySceneHitsNothing) {
-  EXPECT_EQ(RayScene(kCamera, {}).first_hit(10, 10), -1);
-}
+TEST(RayScene, AnEmptySceneHitsNothing) { EXPECT_EQ(RayScene(kCamera, {}).first_hit(10, 10), -1); }
 
 }  // namespace
 }  // namespace seedframe

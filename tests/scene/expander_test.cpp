@@ -318,5 +318,26 @@ TEST(Placement, ShellAnglesAreAsDocumented) {
   EXPECT_NEAR(above.z(), 2.0, 1e-12);
 }
 
+TEST(SceneExpander, WithAutoDetailFarObjectsGetCoarserMeshes) {
+  const auto mesh_bytes = [](const std::string& detail, double distance_m) {
+    auto expander = compile(fmt::format(R"(seedframe: 1
+categories: [gear]
+objects: {{gears: {{asset: gear{}}}}}
+camera: {{target: [0, 0, 0], distance_m: {}}}
+)",
+                                        detail, distance_m));
+    const auto frame = expander->expand(0);
+    EXPECT_TRUE(frame) << frame.error().message;
+    return expander->mesh_buffers_of(*frame).at(frame->spec.instances[0].mesh)->size();
+  };
+  const std::size_t whole = mesh_bytes("", 0.2);
+  EXPECT_EQ(mesh_bytes(", detail: auto", 0.2), whole) << "near, nothing is left out";
+  EXPECT_EQ(mesh_bytes("", 20), whole);
+  EXPECT_EQ(mesh_bytes(", detail: full", 20), whole);
+  const std::size_t farther = mesh_bytes(", detail: auto", 2);
+  EXPECT_LT(farther, 0.8 * static_cast<double>(whole));
+  EXPECT_LT(mesh_bytes(", detail: auto", 20), farther);
+}
+
 }  // namespace
 }  // namespace seedframe

@@ -210,11 +210,12 @@ void StabilityScenes::add_thin_and_coincident() {
       }
     }
     // Cubes of several sizes whose front faces lie in one plane, tilted towards the camera.
-    const Eigen::Quaterniond tilt(Eigen::AngleAxisd(draw(0.1, 0.9), Vector3d(1, 0.3, 0).normalized()));
+    const Eigen::Quaterniond tilt(
+        Eigen::AngleAxisd(draw(0.1, 0.9), Vector3d(1, 0.3, 0).normalized()));
     for (int i = 0; i < 8; ++i) {
       const double half = draw(0.02, 0.05);
-      const Vector3d at = Vector3d(0, 0, -0.5) +
-                          tilt * Vector3d(draw(-0.12, 0.12), draw(-0.1, 0.1), -half);
+      const Vector3d at =
+          Vector3d(0, 0, -0.5) + tilt * Vector3d(draw(-0.12, 0.12), draw(-0.1, 0.1), -half);
       coplanar.back().instances.push_back(instance(cube, 2, placed(at, half, tilt)));
     }
   }

@@ -34,8 +34,8 @@ class StabilityScenes {
 
   struct View {
     double fov_deg = 50.0;
-    double scale = 1.0;        ///< of the whole scene
-    double offset_m = 0.0;     ///< of the whole scene, along (1, 1, 1)
+    double scale = 1.0;     ///< of the whole scene
+    double offset_m = 0.0;  ///< of the whole scene, along (1, 1, 1)
     double clip_start_m = 0.001;
   };
   /// Twelve parts in the view, turned and placed at random.

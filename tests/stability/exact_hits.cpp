@@ -30,7 +30,8 @@ Point exact_point(const Affine& map, const std::array<float, 3>& p) {
 /// False only if the ray is so far from the triangle that no rounding could matter.
 bool may_hit(const Triangle& triangle, const Vector3d& ray) {
   const auto& [a, b, c] = triangle.corners;
-  const std::array<double, 3> sides = {ray.dot(a.cross(b)), ray.dot(b.cross(c)), ray.dot(c.cross(a))};
+  const std::array<double, 3> sides = {ray.dot(a.cross(b)), ray.dot(b.cross(c)),
+                                       ray.dot(c.cross(a))};
   const double size = std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}) * ray.norm();
   const double margin = 1e-9 * size;
   const bool any_left = sides[0] > margin || sides[1] > margin || sides[2] > margin;

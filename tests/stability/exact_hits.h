@@ -10,9 +10,9 @@
 namespace seedframe {
 
 struct ExactHit {
-  int id = 0;              ///< of the instance; 0: nothing
-  bool tie = false;        ///< another instance is at exactly the same depth
-  bool on_an_edge = false; ///< the ray meets an edge or a corner of the triangle
+  int id = 0;               ///< of the instance; 0: nothing
+  bool tie = false;         ///< another instance is at exactly the same depth
+  bool on_an_edge = false;  ///< the ray meets an edge or a corner of the triangle
 };
 
 /// The frame's doubles and the meshes' floats are taken as they stand.

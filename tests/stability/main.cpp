@@ -91,8 +91,8 @@ class Renderer : public RenderClient {
 /// What CGAL says of some pixels of a case.
 struct ExactTally {
   int asked = 0;
-  int ties = 0;            ///< two instances at exactly one depth: either answer is right
-  int twin_differs = 0;    ///< of those without a tie
+  int ties = 0;          ///< two instances at exactly one depth: either answer is right
+  int twin_differs = 0;  ///< of those without a tie
   int cycles_differs = 0;
 };
 

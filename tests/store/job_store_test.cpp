@@ -54,7 +54,8 @@ TEST_F(JobStoreTest, WhatWasCommittedIsThereAfterReopening) {
   {
     JobStore store = store_with(2);
     ASSERT_TRUE(store.attempt_started(0, 1, 4, 1000.0));
-    ASSERT_TRUE(store.frame_done(0, 1, "hash", {}, {.build_s = 0.1, .render_s = 0.2, .finish_s = 0.3}));
+    ASSERT_TRUE(
+        store.frame_done(0, 1, "hash", {}, {.build_s = 0.1, .render_s = 0.2, .finish_s = 0.3}));
     ASSERT_TRUE(store.set_meta("key", "value"));
   }
   const auto store = JobStore::open(path_);

@@ -83,22 +83,25 @@ TEST_F(RealBlenderFault, AWrongTransformIsCaught) {
 }
 
 TEST_F(RealBlenderFault, AWrongCameraIsCaught) {
-  expect_caught({"camera", "scene_builder.py", "camera.lens = lens_mm", "camera.lens = 1.02 * lens_mm"},
-                "instance '");
+  expect_caught(
+      {"camera", "scene_builder.py", "camera.lens = lens_mm", "camera.lens = 1.02 * lens_mm"},
+      "instance '");
 }
 
 TEST_F(RealBlenderFault, AStaleMeshIsCaught) {
   // Whatever is asked for, the cache gives the first mesh that it ever read.
-  expect_caught({"mesh", "mesh_cache.py", "return self._cache.get(sha256, lambda: _load(sha256, paths))",
-                 "self._first = getattr(self, '_first', sha256); return self._cache.get(self._first, "
-                 "lambda: _load(self._first, paths))"},
-                "instance 'bolts/");
+  expect_caught(
+      {"mesh", "mesh_cache.py", "return self._cache.get(sha256, lambda: _load(sha256, paths))",
+       "self._first = getattr(self, '_first', sha256); return self._cache.get(self._first, "
+       "lambda: _load(self._first, paths))"},
+      "instance 'bolts/");
 }
 
 TEST_F(RealBlenderFault, AMissingObjectIsCaught) {
-  expect_caught({"missing", "scene_builder.py", "item.pass_index = spec[\"id\"]",
-                 "item.pass_index = spec[\"id\"]; item.hide_render = spec[\"name\"] == \"bolts/1\""},
-                "'bolts/1'");
+  expect_caught(
+      {"missing", "scene_builder.py", "item.pass_index = spec[\"id\"]",
+       "item.pass_index = spec[\"id\"]; item.hide_render = spec[\"name\"] == \"bolts/1\""},
+      "'bolts/1'");
 }
 
 TEST_F(RealBlenderFault, SwappedIdsAreCaught) {

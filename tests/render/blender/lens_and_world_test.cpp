@@ -35,9 +35,9 @@ Image<std::uint16_t> ids_by_embree(const FrameSpec& spec,
                          !instance.hidden_from.camera});
   }
   const CameraSpec& camera = spec.camera;
-  const RayScene scene({spec.render.width, spec.render.height, camera.focal_px,
-                               camera.center_px, camera.clip_start_m, camera.clip_end_m},
-                              instances);
+  const RayScene scene({spec.render.width, spec.render.height, camera.focal_px, camera.center_px,
+                        camera.clip_start_m, camera.clip_end_m},
+                       instances);
   Image<std::uint16_t> ids(spec.render.width, spec.render.height);
   for (int y = 0; y < spec.render.height; ++y) {
     for (int x = 0; x < spec.render.width; ++x) {
