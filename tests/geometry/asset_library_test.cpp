@@ -264,7 +264,7 @@ TEST_F(Library, LevelsOfDetailAreReadOnDemandAndKept) {
 TEST_F(Library, ChecksNameEveryFaultOfAnAsset) {
   write_ball(obj());
   AssetImport ball = request("ball");
-  ball.levels.most_levels = 2;
+  ball.levels.pixels = 64.0;
   ASSERT_TRUE(import_asset(ball));
   const fs::path folder = root() / "ball";
   EXPECT_TRUE(check_asset(folder, {}).empty());
