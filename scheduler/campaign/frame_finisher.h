@@ -34,7 +34,9 @@ std::filesystem::path rendered_passes(const std::filesystem::path& attempt_folde
 /// into place. A kRender error is the worker's fault, a kEnvironment error the disk's. Thread-safe.
 class FrameFinisher {
  public:
-  explicit FrameFinisher(const LabelConfig& labels) : labels_(labels) {}
+  /// `twin_threads` trace each frame.
+  FrameFinisher(const LabelConfig& labels, int twin_threads)
+      : labels_(labels), tracer_(twin_threads) {}
 
   /// Reads and checks the passes, compares them with the frame's twin, and writes image.png,
   /// instances.png, semantic.png, labels.json, frame.json, the passes without dates, depth.exr and

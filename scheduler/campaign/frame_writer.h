@@ -12,7 +12,7 @@
 
 namespace seedframe {
 
-/// After the first error nothing more is written; manifest_written tells it.
+/// After the first error nothing more is written; status and write_manifest tell it.
 class FrameWriter {
  public:
   explicit FrameWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}

@@ -17,12 +17,12 @@ LabelRun::LabelRun(Campaign& campaign, PreparedCampaign& prepared, const RunOpti
     : campaign_(campaign),
       prepared_(prepared),
       observer_(observer),
-      threads_(options.workers),
-      finisher_(prepared.config.labels),
+      frames_at_once_(options.workers),
+      finisher_(prepared.config.labels, options.threads),
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),
-      queue_(std::make_unique<FinishQueue>(threads_)) {}
+      queue_(std::make_unique<FinishQueue>(frames_at_once_)) {}
 
 LabelRun::~LabelRun() {
   queue_.reset();
@@ -56,7 +56,7 @@ Status LabelRun::prepare_folders() const {
 void LabelRun::begin(const FrameJob& job) {
   {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return under_way_ < 2 * threads_; });
+    changed_.wait(lock, [this] { return under_way_ < 2 * frames_at_once_; });
     ++under_way_;
   }
   writer_->push(AttemptStarted{job, 0, unix_time()});
@@ -64,7 +64,7 @@ void LabelRun::begin(const FrameJob& job) {
   const fs::path folder = campaign_.files.attempt(job.frame, job.attempt);
   const Status made = expanded ? make_folders(folder) : Status(forward_error(expanded));
   if (!made) {
-    writer_->push(AttemptFailed{job, made.error().message, true});
+    give_up(job, made.error());
     return;
   }
   MeshBuffers meshes = prepared_.expander.mesh_buffers_of(*expanded);
@@ -77,14 +77,26 @@ void LabelRun::finish(const FrameJob& job, const FinishTask& task) {
   const auto start = std::chrono::steady_clock::now();
   const Result<FinishedFrame> finished = finisher_.finish_by_twin(task);
   const std::chrono::duration<double> finish_time = std::chrono::steady_clock::now() - start;
-  if (!finished) {  // the same would come of every further attempt
+  if (!finished) {
     std::error_code ignored;
     fs::remove_all(task.attempt_folder, ignored);
-    writer_->push(AttemptFailed{job, finished.error().message, true});
+    give_up(job, finished.error());
     return;
   }
   writer_->push(
       FrameFinished{job, finished->pixel_hash, finished->twin, {0.0, 0.0, finish_time.count()}});
+}
+
+void LabelRun::give_up(const FrameJob& job, const Error& error) {
+  if (error.kind != ErrorKind::kEnvironment) {  // the same would come of every further attempt
+    writer_->push(AttemptFailed{job, error.message, true});
+    return;
+  }
+  const std::lock_guard lock(mutex_);
+  if (error_) error_ = tl::unexpected(error);
+  drained_ = true;
+  --under_way_;
+  changed_.notify_one();
 }
 
 void LabelRun::written(const StoreEvent& event, const Status& status) {

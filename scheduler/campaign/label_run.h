@@ -17,7 +17,8 @@ namespace seedframe {
 
 class LabelRun : public CampaignRun {
  public:
-  /// Of the options, `workers` says on how many threads frames are traced.
+  /// Of the options, `workers` says how many frames are traced at once, and `threads` on how many
+  /// threads each.
   LabelRun(Campaign& campaign, PreparedCampaign& prepared, const RunOptions& options,
            RunObserver& observer);
   ~LabelRun() override;
@@ -29,20 +30,22 @@ class LabelRun : public CampaignRun {
   /// Expands a frame and hands it to the threads; waits while they have enough to do.
   void begin(const FrameJob& job);
   void finish(const FrameJob& job, const FinishTask& task);
+  /// A frame that is not to be had fails; without disk or memory the run ends, and nothing fails.
+  void give_up(const FrameJob& job, const Error& error);
   void written(const StoreEvent& event, const Status& status);
   Status prepare_folders() const;
 
   Campaign& campaign_;
   PreparedCampaign& prepared_;
   RunObserver& observer_;
-  int threads_;
+  int frames_at_once_;
   FrameFinisher finisher_;
   std::atomic<bool> drained_ = false;
   std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;
   int under_way_ = 0;
   RunSummary summary_;
-  Status error_;  ///< of the store: nothing more can be trusted, so the run ends
+  Status error_;                         ///< of the store, the disk or the memory: the run ends
   std::unique_ptr<StoreWriter> writer_;  ///< the only one to use the store and the observer
   std::unique_ptr<FinishQueue> queue_;
 };

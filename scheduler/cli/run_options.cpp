@@ -1,5 +1,6 @@
 #include "cli/run_options.h"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -135,13 +136,20 @@ Result<RunSetup> set_up_run(const RunArguments& arguments, const CampaignConfig&
     return set_up_rendering(arguments, config, frames);
   }
   RunSetup setup;
-  setup.options.workers = arguments.workers > 0 ? arguments.workers : cores();
+  const std::int64_t frames_at_once = std::clamp<std::int64_t>(frames, 1, cores());
+  setup.options.workers =
+      arguments.workers > 0 ? arguments.workers : static_cast<int>(frames_at_once);
+  setup.options.threads =
+      arguments.threads > 0 ? arguments.threads : std::max(1, cores() / setup.options.workers);
   return setup;
 }
 
 std::string describe(const RunSetup& setup) {
   const RunOptions& options = setup.options;
-  if (!setup.color) return fmt::format("{} threads, without Blender", options.workers);
+  if (!setup.color) {
+    return fmt::format("{} frames at once, threads each: {}, without Blender", options.workers,
+                       options.threads);
+  }
   return fmt::format("{} × Blender {}, threads each: {}", options.workers, options.blender.version,
                      options.threads);
 }

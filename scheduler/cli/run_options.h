@@ -35,7 +35,7 @@ struct RunSetup {
 Result<RunSetup> set_up_run(const RunArguments& arguments, const CampaignConfig& config,
                             std::int64_t frames);
 
-/// "2 × Blender 3.4.1, threads each: 1", or "2 threads, without Blender".
+/// "2 × Blender 3.4.1, threads each: 1", or "2 frames at once, threads each: 1, without Blender".
 std::string describe(const RunSetup& setup);
 
 /// Renders the frames with a progress bar, Ctrl-C draining, and prints how it ended and what to do

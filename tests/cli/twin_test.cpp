@@ -53,7 +53,7 @@ TEST_F(TwinCampaign, LabelsByGeometryNeedNoBlender) {
 
 TEST_F(TwinCampaign, LabelsByGeometryAreTheSameWhateverTheThreads) {
   label("one", {"--workers", "1"});
-  label("two", {"--workers", "2"});
+  label("two", {"--workers", "2", "--threads", "3"});
   EXPECT_EQ(contents("one/frames"), contents("two/frames"));
   EXPECT_EQ(status("one").at("dataset_hash"), status("two").at("dataset_hash"));
 }
