@@ -5,7 +5,7 @@ import json
 import os
 
 PROTOCOL = 1
-SPEC_VERSION = 3
+SPEC_VERSION = 4
 
 
 class ProtocolError(Exception):

@@ -7,6 +7,20 @@
 namespace seedframe {
 namespace {
 
+/// A surface nearer than the point by less than this share of the object's size is the point's own:
+/// keypoints are set by hand, and meshes are quantised.
+constexpr double kKeypointTolerance = 1e-3;
+
+/// x, y in pixels, 0 being the edge of the first one; none for what is not in front of the camera.
+std::optional<std::array<double, 2>> projected(const CameraSpec& camera,
+                                               const Eigen::Vector3d& seen) {
+  const double depth = -seen.z();
+  if (depth <= 0.0) return std::nullopt;
+  constexpr double kHalf = 0.5;  // the camera's whole numbers are the pixels' centres
+  return std::array<double, 2>{camera.center_px[0] + camera.focal_px[0] * seen.x() / depth + kHalf,
+                               camera.center_px[1] - camera.focal_px[1] * seen.y() / depth + kHalf};
+}
+
 std::array<std::optional<std::array<double, 2>>, 8> projected_corners(
     const FrameSpec& spec, const Affine& camera_from_object, const BoundingBox& box) {
   std::array<std::optional<std::array<double, 2>>, 8> corners;
@@ -14,14 +28,33 @@ std::array<std::optional<std::array<double, 2>>, 8> projected_corners(
     const Eigen::Vector3d corner((i & 1) != 0 ? box.high.x() : box.low.x(),
                                  (i & 2) != 0 ? box.high.y() : box.low.y(),
                                  (i & 4) != 0 ? box.high.z() : box.low.z());
-    const Eigen::Vector3d seen = camera_from_object * corner;
-    const double depth = -seen.z();
-    if (depth <= 0.0) continue;
-    const CameraSpec& camera = spec.camera;
-    corners[i] = {camera.center_px[0] + camera.focal_px[0] * seen.x() / depth,
-                  camera.center_px[1] - camera.focal_px[1] * seen.y() / depth};
+    corners[i] = projected(spec.camera, camera_from_object * corner);
   }
   return corners;
+}
+
+std::vector<KeypointLabel> keypoint_labels(const FrameSpec& spec, const Twin& twin,
+                                           std::size_t index) {
+  const InstanceSpec& instance = spec.instances[index];
+  const Affine& camera_from_object = instance.camera_from_object;
+  const double size = (camera_from_object.linear() * twin.object_box(index).size()).norm();
+  std::vector<KeypointLabel> labels;
+  labels.reserve(instance.keypoints.size());
+  for (const Keypoint& keypoint : instance.keypoints) {
+    KeypointLabel& label = labels.emplace_back();
+    label.name = keypoint.name;
+    const Eigen::Vector3d seen = camera_from_object * keypoint.point_m;
+    if (-seen.z() < spec.camera.clip_start_m || -seen.z() > spec.camera.clip_end_m) continue;
+    const auto px = projected(spec.camera, seen);
+    const bool in_image = px && (*px)[0] >= 0.0 && (*px)[0] < spec.render.width &&
+                          (*px)[1] >= 0.0 && (*px)[1] < spec.render.height;
+    if (!in_image) continue;
+    label.px = *px;
+    const int transparent = keypoint.inside ? static_cast<int>(index) : -1;
+    const bool hidden = twin.hides(seen, kKeypointTolerance * size, transparent);
+    label.visibility = hidden ? Visibility::kHidden : Visibility::kVisible;
+  }
+  return labels;
 }
 
 }  // namespace
@@ -40,6 +73,19 @@ Pose pose_of(const Affine& camera_from_object) {
   pose.scale = (pose.rotation.transpose() * camera_from_object.linear()).diagonal();
   pose.translation_m = camera_from_object.translation();
   return pose;
+}
+
+std::int64_t silhouette_area_in(const AmodalLabel& amodal, const PixelBox& box) {
+  const auto rle = rle_from_string(amodal.rle, amodal.box.width, amodal.box.height);
+  std::int64_t area = 0;
+  if (!rle) return area;
+  for_each_stretch(*rle, [&](int column, int first, int end) {
+    const int x = amodal.box.x + column;
+    if (x < box.x || x >= box.x + box.width) return;
+    area += std::max(0, std::min(amodal.box.y + end, box.y + box.height) -
+                            std::max(amodal.box.y + first, box.y));
+  });
+  return area;
 }
 
 void add_amodal_labels(FrameLabels& labels, const FrameSpec& spec, const Twin& twin,
@@ -62,7 +108,9 @@ void add_amodal_labels(FrameLabels& labels, const FrameSpec& spec, const Twin& t
     amodal.pose = pose_of(instance.camera_from_object);
     amodal.object_box = twin.object_box(i);
     amodal.box_corners_px = projected_corners(spec, instance.camera_from_object, amodal.object_box);
-    labels.instances[next++].amodal = std::move(amodal);
+    InstanceLabel& label = labels.instances[next++];
+    label.amodal = std::move(amodal);
+    label.keypoints = keypoint_labels(spec, twin, i);
   }
 }
 

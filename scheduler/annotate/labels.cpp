@@ -30,7 +30,8 @@ Result<std::unordered_map<int, std::size_t>> positions_by_id(const FrameSpec& sp
 
 }  // namespace
 
-Result<FrameLabels> make_labels(const FrameSpec& spec, const Image<std::uint16_t>& instance_ids) {
+Result<FrameLabels> make_labels(const FrameSpec& spec, const std::vector<std::string>& categories,
+                                const Image<std::uint16_t>& instance_ids) {
   if (instance_ids.width != spec.render.width || instance_ids.height != spec.render.height) {
     return fail(ErrorKind::kRender, "the index pass is {}x{} pixels, the frame spec asks for {}x{}",
                 instance_ids.width, instance_ids.height, spec.render.width, spec.render.height);
@@ -51,6 +52,9 @@ Result<FrameLabels> make_labels(const FrameSpec& spec, const Image<std::uint16_t
   }
   FrameLabels labels{.width = instance_ids.width,
                      .height = instance_ids.height,
+                     .categories = categories,
+                     .focal_px = spec.camera.focal_px,
+                     .center_px = spec.camera.center_px,
                      .twin_exact = spec.labels.twin_exact,
                      .instances = {}};
   for (std::size_t i = 0; i < spec.instances.size(); ++i) {
@@ -60,6 +64,7 @@ Result<FrameLabels> make_labels(const FrameSpec& spec, const Image<std::uint16_t
     label.id = instance.id;
     label.category = instance.category;
     label.name = instance.name;
+    label.asset = instance.asset;
     if (extents[i] != nullptr) {
       label.area_px = extents[i]->area_px;
       label.box = extents[i]->box;

@@ -44,17 +44,32 @@ struct AmodalLabel {
   Pose pose;
   BoundingBox object_box;  ///< of the mesh, in object space, metres
   /// Corners of object_box in pixels; x alternates fastest between low and high, then y, then z.
-  /// None for one that is not in front of the camera.
+  /// 0, 0 is the corner of the first pixel. None for one that is not in front of the camera.
   std::array<std::optional<std::array<double, 2>>, 8> box_corners_px;
 };
 
+/// COCO's three degrees.
+enum class Visibility {
+  kOutside = 0,  ///< of the image, or behind the camera
+  kHidden = 1,   ///< by something nearer
+  kVisible = 2,
+};
+
+struct KeypointLabel {
+  std::string name;
+  std::array<double, 2> px{};  ///< x, y; 0 is the edge of the first pixel; 0, 0 when outside
+  Visibility visibility = Visibility::kOutside;
+};
+
 struct InstanceLabel {
-  int id = 0;                         ///< value in instances.png
-  int category = 0;                   ///< 1-based; 0: a distractor
-  std::string name;                   ///< "<object>/<copy>"
+  int id = 0;        ///< value in instances.png
+  int category = 0;  ///< 1-based; 0: a distractor
+  std::string name;  ///< "<object>/<copy>"
+  std::string asset;
   std::int64_t area_px = 0;           ///< visible pixels; 0: wholly hidden or out of view
   PixelBox box;                       ///< of the visible pixels; all 0 when there are none
   std::optional<AmodalLabel> amodal;  ///< none: the frame has no twin
+  std::vector<KeypointLabel> keypoints;
 
   /// Visible pixels as a share of the whole silhouette's (BOP's visib_fract); 0 when that is empty.
   double visible_fraction() const;
@@ -65,14 +80,18 @@ struct InstanceLabel {
 struct FrameLabels {
   int width = 0;
   int height = 0;
+  std::vector<std::string> categories;  ///< category k is categories[k - 1]
+  std::array<double, 2> focal_px{};     ///< of the pinhole
+  std::array<double, 2> center_px{};    ///< principal point; pixel centres are whole numbers
   bool twin_exact = true;  ///< false: silhouettes know nothing of holes that textures cut
   /// Every instance of the spec with an id, in the spec's order.
   std::vector<InstanceLabel> instances;
 };
 
-/// What the image shows, without amodal labels. An id in the image that the spec does not have is a
-/// kRender error.
-Result<FrameLabels> make_labels(const FrameSpec& spec, const Image<std::uint16_t>& instance_ids);
+/// What the image shows, without amodal labels and keypoints. An id in the image that the spec does
+/// not have is a kRender error.
+Result<FrameLabels> make_labels(const FrameSpec& spec, const std::vector<std::string>& categories,
+                                const Image<std::uint16_t>& instance_ids);
 
 /// For each pixel the category of its instance, 0 for background and distractors.
 Image<std::uint8_t> semantic_image(const FrameSpec& spec, const Image<std::uint16_t>& instance_ids);

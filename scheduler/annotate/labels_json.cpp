@@ -11,7 +11,7 @@
 namespace seedframe {
 namespace {
 
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 constexpr int kLargestCanvas = 3 * (1 << 20);
 constexpr int kLargestId = std::numeric_limits<std::uint16_t>::max();
 
@@ -167,6 +167,35 @@ Result<AmodalLabel> amodal_from_json(const Json& json, const InstanceLabel& labe
   return amodal;
 }
 
+Result<std::vector<KeypointLabel>> keypoints_from_json(const Json& json, const std::string& what) {
+  std::vector<KeypointLabel> keypoints;
+  try {
+    for (const Json& item : json) {
+      const int visibility = item.at("visibility").get<int>();
+      if (visibility < 0 || visibility > 2) {
+        return fail(ErrorKind::kCorrupt, "{}: a visibility must be 0, 1 or 2, found {}", what,
+                    visibility);
+      }
+      keypoints.push_back({item.at("name").get<std::string>(),
+                           item.at("px").get<std::array<double, 2>>(),
+                           static_cast<Visibility>(visibility)});
+    }
+  } catch (const Json::exception& error) {
+    return fail(ErrorKind::kCorrupt, "{}: {}", what, error.what());
+  }
+  return keypoints;
+}
+
+Json to_json(const std::vector<KeypointLabel>& keypoints) {
+  Json list = Json::array();
+  for (const KeypointLabel& keypoint : keypoints) {
+    list.push_back({{"name", keypoint.name},
+                    {"px", keypoint.px},
+                    {"visibility", static_cast<int>(keypoint.visibility)}});
+  }
+  return list;
+}
+
 Json to_json(const AmodalLabel& amodal) {
   Json corners = Json::array();
   for (const auto& corner : amodal.box_corners_px)
@@ -202,20 +231,33 @@ Result<InstanceLabel> instance_from_json(const Json& json, const FrameLabels& fr
   if (!area) return forward_error(area);
   const auto name = json_field<std::string>(json, "name", what);
   if (!name) return forward_error(name);
+  const auto asset = json_field<std::string>(json, "asset", what);
+  if (!asset) return forward_error(asset);
   const auto box = box_field(json, what);
   if (!box) return forward_error(box);
+  if (*category > static_cast<std::int64_t>(frame.categories.size())) {
+    return fail(ErrorKind::kCorrupt, "{}: category {} of {}", what, *category,
+                frame.categories.size());
+  }
   InstanceLabel label{.id = static_cast<int>(*id),
                       .category = static_cast<int>(*category),
                       .name = *name,
+                      .asset = *asset,
                       .area_px = *area,
                       .box = *box,
-                      .amodal = {}};
+                      .amodal = {},
+                      .keypoints = {}};
   if (Status possible = check_extent(label, frame, what); !possible) return forward_error(possible);
   const auto amodal = json.find("amodal");
   if (amodal != json.end()) {
     auto read = amodal_from_json(*amodal, label, what + ": amodal");
     if (!read) return forward_error(read);
     label.amodal = std::move(*read);
+  }
+  if (const auto keypoints = json.find("keypoints"); keypoints != json.end()) {
+    auto read = keypoints_from_json(*keypoints, what + ": keypoints");
+    if (!read) return forward_error(read);
+    label.keypoints = std::move(*read);
   }
   return label;
 }
@@ -238,21 +280,22 @@ Json to_json(const FrameLabels& labels) {
   Json instances = Json::array();
   for (const InstanceLabel& label : labels.instances) {
     const PixelBox& box = label.box;
-    Json instance = {{"id", label.id},
-                     {"category", label.category},
-                     {"name", label.name},
-                     {"area_px", label.area_px},
-                     {"box", {box.x, box.y, box.width, box.height}}};
+    Json instance = {{"id", label.id},           {"category", label.category},
+                     {"name", label.name},       {"asset", label.asset},
+                     {"area_px", label.area_px}, {"box", {box.x, box.y, box.width, box.height}}};
     if (label.amodal) {
       instance["amodal"] = to_json(*label.amodal);
       instance["visible_fraction"] = label.visible_fraction();
       instance["truncation"] = label.truncation();
     }
+    if (!label.keypoints.empty()) instance["keypoints"] = to_json(label.keypoints);
     instances.push_back(std::move(instance));
   }
   return {{"version", kVersion},
           {"width", labels.width},
           {"height", labels.height},
+          {"categories", labels.categories},
+          {"camera", {{"focal_px", labels.focal_px}, {"center_px", labels.center_px}}},
           {"twin_exact", labels.twin_exact},
           {"instances", std::move(instances)}};
 }
@@ -275,8 +318,18 @@ Result<FrameLabels> labels_from_json(const Json& json, const std::string& what) 
   if (!twin_exact) return forward_error(twin_exact);
   FrameLabels labels{.width = static_cast<int>(*width),
                      .height = static_cast<int>(*height),
+                     .categories = {},
+                     .focal_px = {},
+                     .center_px = {},
                      .twin_exact = *twin_exact,
                      .instances = {}};
+  try {
+    json.at("categories").get_to(labels.categories);
+    json.at("camera").at("focal_px").get_to(labels.focal_px);
+    json.at("camera").at("center_px").get_to(labels.center_px);
+  } catch (const Json::exception& error) {
+    return fail(ErrorKind::kCorrupt, "{}: {}", what, error.what());
+  }
   std::unordered_set<int> ids;
   for (const Json& item : *instances) {
     const std::string where = fmt::format("{}: instances[{}]", what, labels.instances.size());

@@ -1,6 +1,7 @@
 // COCO's run-length encoding of a mask (the format of pycocotools).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,6 +28,24 @@ Rle encode_rle(std::span<const std::uint8_t> mask, int width, int height);
 
 /// Number of mask pixels: the sum of every second run.
 std::int64_t rle_area(const Rle& rle);
+
+/// Calls visit(column, first row, end row) for every stretch of mask pixels in a column.
+template <class Visit>
+void for_each_stretch(const Rle& rle, Visit visit) {
+  const std::int64_t height = rle.height;
+  std::int64_t position = 0;
+  for (std::size_t i = 0; i < rle.counts.size(); ++i) {
+    const std::int64_t end = position + rle.counts[i];
+    while (i % 2 == 1 && position < end) {
+      const std::int64_t column = position / height;
+      const std::int64_t stretch_end = std::min(end, (column + 1) * height);
+      visit(static_cast<int>(column), static_cast<int>(position - column * height),
+            static_cast<int>(stretch_end - column * height));
+      position = stretch_end;
+    }
+    position = end;
+  }
+}
 
 /// The runs as printable ASCII. From the fourth run on the difference to the run two before is
 /// written; each number in groups of five bits, lowest first, two's complement; a character is

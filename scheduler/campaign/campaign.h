@@ -7,7 +7,7 @@
 #include "base/campaign_files.h"
 #include "base/error.h"
 #include "campaign/campaign_lock.h"
-#include "campaign/manifest.h"
+#include "base/manifest.h"
 #include "campaign/prepared_campaign.h"
 #include "render/frame_job.h"
 #include "store/job_store.h"

@@ -79,9 +79,10 @@ Result<TwinTally> check(const FinishTask& task, const LabelConfig& labels,
 }
 
 /// What both ways of finishing write.
-Status write_labels(const FinishTask& task, const Image<std::uint16_t>& instance_ids,
-                    const Twin& twin, FrameWriter& writer) {
-  Result<FrameLabels> labels = make_labels(task.spec, instance_ids);
+Status write_labels(const FinishTask& task, const std::vector<std::string>& categories,
+                    const Image<std::uint16_t>& instance_ids, const Twin& twin,
+                    FrameWriter& writer) {
+  Result<FrameLabels> labels = make_labels(task.spec, categories, instance_ids);
   if (!labels) return forward_error(labels);
   add_amodal_labels(*labels, task.spec, twin, instance_ids);
   writer.write(frame_files::kSpec, readable_json(to_json(task.spec)));
@@ -132,7 +133,7 @@ Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorM
   if (!image) return forward_error(image);
 
   FrameWriter writer(task.attempt_folder);
-  if (Status labelled = write_labels(task, ids, *twin, writer); !labelled) {
+  if (Status labelled = write_labels(task, categories_, ids, *twin, writer); !labelled) {
     return forward_error(labelled);
   }
   writer.write(frame_files::kImage, encode_png(*image));
@@ -154,7 +155,8 @@ Result<FinishedFrame> FrameFinisher::finish_by_twin(const FinishTask& task) {
   const Result<Twin> twin = tracer_.trace(task.spec, task.meshes, TwinTracer::Passes::kAsked);
   if (!twin) return forward_error(twin);
   FrameWriter writer(task.attempt_folder);
-  if (Status labelled = write_labels(task, twin->instance_ids, *twin, writer); !labelled) {
+  if (Status labelled = write_labels(task, categories_, twin->instance_ids, *twin, writer);
+      !labelled) {
     return forward_error(labelled);
   }
   write_data_passes(twin->depth, twin->normal, writer);

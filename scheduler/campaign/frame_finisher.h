@@ -35,8 +35,8 @@ std::filesystem::path rendered_passes(const std::filesystem::path& attempt_folde
 class FrameFinisher {
  public:
   /// `twin_threads` trace each frame.
-  FrameFinisher(const LabelConfig& labels, int twin_threads)
-      : labels_(labels), tracer_(twin_threads) {}
+  FrameFinisher(const CampaignConfig& config, int twin_threads)
+      : labels_(config.labels), categories_(config.categories), tracer_(twin_threads) {}
 
   /// Reads and checks the passes, compares them with the frame's twin, and writes image.png,
   /// instances.png, semantic.png, labels.json, frame.json, the passes without dates, depth.exr and
@@ -49,6 +49,7 @@ class FrameFinisher {
 
  private:
   LabelConfig labels_;
+  std::vector<std::string> categories_;
   TwinTracer tracer_;
 };
 

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/sha256.h"
-#include "campaign/manifest.h"
+#include "base/manifest.h"
 
 namespace seedframe {
 

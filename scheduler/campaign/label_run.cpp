@@ -18,7 +18,7 @@ LabelRun::LabelRun(Campaign& campaign, PreparedCampaign& prepared, const RunOpti
       prepared_(prepared),
       observer_(observer),
       frames_at_once_(options.workers),
-      finisher_(prepared.config.labels, options.threads),
+      finisher_(prepared.config, options.threads),
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),

@@ -58,7 +58,7 @@ RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, const Color
       color_(color),
       provenance_(provenance),
       observer_(observer),
-      finisher_(prepared.config.labels, 1),  // the cores are the workers'
+      finisher_(prepared.config, 1),  // the cores are the workers'
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),

@@ -9,6 +9,7 @@
 
 #include "base/canonical_json.h"
 #include "base/files.h"
+#include "cli/asset_keypoints.h"
 #include "cli/asset_report.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
@@ -34,6 +35,7 @@ struct Options {
   std::string up;
   AssetImport import;
   AssetCheck check;
+  KeypointArguments keypoints;
   bool json = false;
 
   fs::path library_root() const {
@@ -144,6 +146,10 @@ int check_assets(const Options& options) {
   return exit_code;
 }
 
+int show_keypoints(const Options& options) {
+  return asset_keypoints(options.library_root(), options.keypoints);
+}
+
 using Action = int (*)(const Options&);
 
 CLI::App* add_action(CLI::App& verb, const std::string& name, const std::string& help,
@@ -190,6 +196,21 @@ void add_import_options(CLI::App& command, Options& options) {
   command.footer("Example: seedframe asset import bolt.stl --scale 0.001 --category hex_bolt");
 }
 
+void add_keypoint_options(CLI::App& command, KeypointArguments& keypoints) {
+  command.add_option("NAME", keypoints.asset, "The asset")->required();
+  command.add_option("POINT", keypoints.points,
+                     "NAME=X,Y,Z in metres, as the mesh has them; all of them, they replace those "
+                     "that are there");
+  command.add_option("--inside", keypoints.inside,
+                     "Points within the mesh, such as joints: only other objects hide them");
+  command.add_option("--line", keypoints.lines, "A-B: draw a line between them");
+  command.add_option("--mirror", keypoints.mirrored, "A-B: a mirrored image swaps them");
+  command.add_flag("--clear", keypoints.clear, "Remove all");
+  command.footer(
+      "Example: seedframe asset keypoints hex_bolt head=0,0,0.02875 tip=0,0,-0.02875 "
+      "--line head-tip");
+}
+
 }  // namespace
 
 void add_asset_verb(CLI::App& app, const OnSelected& on_selected) {
@@ -211,6 +232,9 @@ void add_asset_verb(CLI::App& app, const OnSelected& on_selected) {
   check->add_flag("--thorough", options->check.thorough,
                   "Measure the levels' errors with a guaranteed bound: half a minute an asset");
   check->footer("Example: seedframe asset check --root my_assets");
+  CLI::App* keypoints = add_action(*verb, "keypoints", "Show or set an asset's named points",
+                                   options, on_selected, show_keypoints);
+  add_keypoint_options(*keypoints, options->keypoints);
   CLI::App* draw = add_action(*verb, "thumbnail", "Draw the thumbnails anew", options, on_selected,
                               draw_thumbnails);
   draw->add_option("NAME", options->names, "Only these assets");

@@ -1,17 +1,23 @@
 // seedframe export: annotations of a rendered campaign.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <set>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include "base/nearest_name.h"
 #include "campaign/campaign.h"
+#include "cli/campaign_dataset.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
-#include "export/exporter.h"
+#include "export/export_index.h"
+#include "export/export_run.h"
+#include "export/verify.h"
 
 namespace seedframe {
 namespace {
@@ -21,17 +27,20 @@ struct ExportArguments {
   std::string output;
   std::vector<std::string> formats;
   std::string split;
+  std::string polygon = "exact";
   std::string polygon_vertices = "edges";
-  int min_pixels = 1;
+  ExportOptions options;
   bool link = false;
   bool partial = false;
+  bool verify = false;
 };
 
-/// "train=0.8,val=0.2" to 0.2.
-Result<double> parse_val_share(const std::string& text) {
-  if (text.empty()) return 0.0;
-  double train = NAN;
-  double val = NAN;
+/// "train=0.8,val=0.2" to shares, train first. One that is left out takes the rest.
+Result<std::vector<SplitShare>> parse_splits(const std::string& text) {
+  const std::vector<std::string> names = {"train", "val", "test"};
+  std::vector<SplitShare> splits;
+  if (text.empty()) return std::vector<SplitShare>{{"train", 1.0}};
+  double sum = 0.0;
   for (const std::string& part : CLI::detail::split(text, ',')) {
     const std::size_t equals = part.find('=');
     const std::string name = part.substr(0, equals);
@@ -39,117 +48,168 @@ Result<double> parse_val_share(const std::string& text) {
     const double share =
         equals == std::string::npos ? NAN : std::strtod(part.c_str() + equals + 1, &end);
     const bool whole = end != nullptr && *end == '\0' && share >= 0.0;
-    if (!whole || (name != "train" && name != "val")) {
+    const bool known = std::find(names.begin(), names.end(), name) != names.end();
+    const bool twice = std::any_of(splits.begin(), splits.end(),
+                                   [&](const SplitShare& split) { return split.name == name; });
+    if (!whole || !known || twice) {
       return fail(ErrorKind::kInput, "--split {}: expected train=0.8,val=0.2, found '{}'{}", text,
-                  part, did_you_mean(name, {"train", "val"}));
+                  part, known ? "" : did_you_mean(name, names));
     }
-    (name == "train" ? train : val) = share;
+    splits.push_back({name, share});
+    sum += share;
   }
-  if (std::isnan(val)) val = 1.0 - train;
-  if (std::isnan(train)) train = 1.0 - val;
-  constexpr double kRounding = 1e-9;
-  if (std::abs(train + val - 1.0) > kRounding || train <= 0.0) {
-    return fail(ErrorKind::kInput,
-                "--split {}: the shares must add up to 1, and train must have some", text);
+  const auto train = std::find_if(splits.begin(), splits.end(),
+                                  [](const SplitShare& split) { return split.name == "train"; });
+  if (train == splits.end()) {
+    splits.insert(splits.begin(), {"train", 1.0 - sum});
+  } else {
+    std::rotate(splits.begin(), train, train + 1);
+    if (splits.size() == 1 && sum < 1.0) splits.push_back({"val", 1.0 - sum});
   }
-  return val;
+  // val before test, so that test can be added without moving what is in val.
+  std::sort(splits.begin() + 1, splits.end(),
+            [](const SplitShare& a, const SplitShare& b) { return a.name > b.name; });
+  return splits;
 }
 
-Result<Dataset> read_dataset(const Campaign& campaign, const PreparedCampaign& prepared,
-                             bool partial) {
-  Dataset dataset;
-  dataset.name = prepared.config.name;
-  dataset.categories = prepared.config.categories;
-  dataset.has_images = prepared.config.labels.source == LabelSource::kIndexPass;
-  std::int64_t missing = 0;
-  const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
-    if (row.state != FrameState::kDone) {
-      ++missing;
-      return {};
-    }
-    const std::filesystem::path folder = campaign.files.frame(row.frame);
-    const auto verified = verify_frame(folder, row.frame_id, VerifyDepth::kContents);
-    if (!verified) {
-      return fail(ErrorKind::kCorrupt, "{}\n'seedframe resume {} --verify' renders it again",
-                  verified.error().message, campaign.files.root().string());
-    }
-    dataset.frames.push_back({row.frame, static_cast<int>(row.scene), folder, row.frame_id});
-    return {};
-  });
-  if (!visited) return forward_error(visited);
-  if (missing > 0 && !partial) {
-    return fail(ErrorKind::kInput,
-                "{} of {} frames are not done: 'seedframe resume {}' renders them, or --partial "
-                "exports without them",
-                missing, missing + static_cast<std::int64_t>(dataset.frames.size()),
-                campaign.files.root().string());
+Result<ExportOptions> options_of(const ExportArguments& arguments, const Campaign& campaign) {
+  ExportOptions options = arguments.options;
+  auto splits = parse_splits(arguments.split);
+  if (!splits) return forward_error(splits);
+  options.splits = std::move(*splits);
+  options.output =
+      arguments.output.empty() ? campaign.files.exports() : std::filesystem::path(arguments.output);
+  options.link_images = arguments.link;
+  options.polygon_detail =
+      arguments.polygon == "simplified" ? PolygonDetail::kSimplified : PolygonDetail::kExact;
+  options.polygon_vertices =
+      arguments.polygon_vertices == "centres" ? PolygonVertices::kCentres : PolygonVertices::kEdges;
+  if (options.workers == 0) {
+    options.workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   }
-  if (missing > 0) {
-    std::fprintf(stderr, "seedframe: note: %lld frames are missing\n",
-                 static_cast<long long>(missing));
-  }
-  return dataset;
+  return options;
 }
 
-void print_summary(const ExportFormat& format, const ExportSummary& summary) {
-  fmt::print("{}: {}\n", format.name, summary.folder.string());
+void print_summary(const ExportSummary& summary) {
+  fmt::print("{}: {}\n", summary.format, summary.folder.string());
   for (const SplitSummary& split : summary.splits) {
+    const auto count = [&](Count which) { return at(split.counts, which); };
     fmt::print("  {:<5} {} images ({} without objects), {} annotations", split.split, split.images,
-               split.background_images, split.annotations);
-    if (split.skipped_small > 0) fmt::print(", {} left out as too small", split.skipped_small);
-    if (split.duplicate_rows > 0) {
-      fmt::print(", {} rows that loaders merge with another", split.duplicate_rows);
+               split.background_images, count(Count::kAnnotations));
+    for (const auto& [which, text] :
+         {std::pair(Count::kTooSmall, "left out as too small"),
+          std::pair(Count::kTooHidden, "left out as too hidden"),
+          std::pair(Count::kDuplicateRows, "rows that loaders merge with another"),
+          std::pair(Count::kOtherBoxes, "whose smallest rectangle leaves the image")}) {
+      if (count(which) > 0) fmt::print(", {} {}", count(which), text);
     }
     fmt::print("\n");
   }
-  for (const std::string& warning : summary.warnings) {
-    std::fprintf(stderr, "seedframe: note: %s\n", warning.c_str());
+  if (summary.reused > 0) {
+    fmt::print("  {} of {} frames are as they were, and were taken over\n", summary.reused,
+               summary.frames);
   }
 }
 
-Result<std::vector<const ExportFormat*>> find_formats(const std::vector<std::string>& names) {
-  std::vector<const ExportFormat*> formats;
+/// Each once, although several formats may have it.
+void print_warnings(const std::vector<ExportSummary>& summaries) {
+  std::set<std::string> told;
+  for (const ExportSummary& summary : summaries) {
+    for (const std::string& warning : summary.warnings) {
+      if (!told.insert(warning).second) continue;
+      std::fprintf(stderr, "seedframe: note: %s\n", warning.c_str());
+    }
+  }
+}
+
+/// Each once, in the order of the first mention.
+Result<std::vector<const FormatEntry*>> find_formats(const std::vector<std::string>& names) {
+  std::vector<const FormatEntry*> formats;
   for (const std::string& name : names) {
     const auto format = find_export_format(name);
     if (!format) return forward_error(format);
-    formats.push_back(*format);
+    if (std::find(formats.begin(), formats.end(), *format) == formats.end()) {
+      formats.push_back(*format);
+    }
   }
   return formats;
+}
+
+/// Folders of exports in the output folder, of the named formats or of all that are there.
+Result<std::vector<std::filesystem::path>> folders_to_verify(
+    const std::vector<const FormatEntry*>& named, const std::filesystem::path& output) {
+  std::vector<std::filesystem::path> folders;
+  for (const FormatEntry* format : named) folders.push_back(output / format->name);
+  if (!folders.empty()) return folders;
+  for (const FormatEntry& format : export_formats()) {
+    if (std::filesystem::exists(output / format.name / kMarkerFile)) {
+      folders.push_back(output / format.name);
+    }
+  }
+  if (folders.empty()) {
+    return fail(ErrorKind::kInput, "{} holds no export of Seedframe", output.string());
+  }
+  return folders;
+}
+
+int verify_all(const Dataset& dataset, const std::vector<std::filesystem::path>& folders,
+               int workers) {
+  int code = kExitOk;
+  for (const std::filesystem::path& folder : folders) {
+    const Result<VerifySummary> summary = verify_export(dataset, folder, workers);
+    if (!summary) return report(summary.error());
+    fmt::print("{}: {} frames with {} annotations compared with their source, {}\n",
+               summary->format, summary->frames, summary->annotations,
+               summary->differences == 0 ? "all equal"
+                                         : fmt::format("{} differences", summary->differences));
+    for (const std::string& difference : summary->first_differences) {
+      code = report({ErrorKind::kCorrupt, fmt::format("{}: {}", summary->format, difference)});
+    }
+  }
+  return code;
 }
 
 int export_campaign(const ExportArguments& arguments) {
   const auto formats = find_formats(arguments.formats);
   if (!formats) return report(formats.error());
-  const Result<double> val_share = parse_val_share(arguments.split);
-  if (!val_share) return report(val_share.error());
+  if (formats->empty() && !arguments.verify) {
+    return report({ErrorKind::kInput, "--format says what to write, such as --format coco"});
+  }
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
+  const auto options = options_of(arguments, *campaign);
+  if (!options) return report(options.error());
   Result<CampaignSource> source = source_of(*campaign, seedframe_home());
   if (!source) return report(source.error());
   const Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (!prepared) return report(prepared.error());
-  const Result<Dataset> dataset = read_dataset(*campaign, *prepared, arguments.partial);
+  const Result<CampaignDataset> dataset = campaign_dataset(*campaign, *prepared);
   if (!dataset) return report(dataset.error());
-  ExportOptions options;
-  options.output = arguments.output.empty() ? campaign->files.exports()
-                                            : std::filesystem::path(arguments.output);
-  options.min_pixels = arguments.min_pixels;
-  options.link_images = arguments.link;
-  options.val_share = *val_share;
-  options.seed = prepared->config.seed;
-  options.polygon_vertices =
-      arguments.polygon_vertices == "centres" ? PolygonVertices::kCentres : PolygonVertices::kEdges;
-  for (const ExportFormat* format : *formats) {
-    const Result<ExportSummary> summary = format->run(*dataset, options);
-    if (!summary) return report(summary.error());
-    print_summary(*format, *summary);
+  if (arguments.verify) {
+    const auto folders = folders_to_verify(*formats, options->output);
+    if (!folders) return report(folders.error());
+    return verify_all(dataset->dataset, *folders, options->workers);
+  }
+  if (dataset->missing > 0 && !arguments.partial) {
+    return report({ErrorKind::kInput,
+                   fmt::format("{} frames are not done: 'seedframe resume {}' renders them, or "
+                               "--partial exports without them",
+                               dataset->missing, campaign->files.root().string())});
+  }
+  const auto summaries = run_export(dataset->dataset, *formats, *options);
+  if (!summaries) return report(summaries.error());
+  for (const ExportSummary& summary : *summaries) print_summary(summary);
+  print_warnings(*summaries);
+  if (dataset->missing > 0) {
+    std::fprintf(stderr, "seedframe: note: %lld frames are missing\n",
+                 static_cast<long long>(dataset->missing));
   }
   return kExitOk;
 }
 
 std::string list_of_formats() {
   std::string list = "annotation format, can be given more than once:";
-  for (const ExportFormat& format : export_formats()) {
+  for (const FormatEntry& format : export_formats()) {
     list += fmt::format("\n  {}: {}", format.name, format.description);
   }
   return list;
@@ -161,23 +221,39 @@ void add_export_verb(CLI::App& app, const OnSelected& on_selected) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* verb = app.add_subcommand("export", "write annotations of a rendered campaign");
   verb->add_option("DIR", arguments->folder, "folder of the campaign")->required();
-  verb->add_option("--format", arguments->formats, list_of_formats())
-      ->required()
-      ->allow_extra_args(false);
+  ExportOptions& options = arguments->options;
+  options.workers = 0;
+  verb->add_option("--format", arguments->formats, list_of_formats())->allow_extra_args(false);
   verb->add_option("-o,--output", arguments->output,
                    "folder to write to (default: exports/ in the campaign's folder)");
   verb->add_option("--split", arguments->split,
-                   "shares of the scenes, such as train=0.8,val=0.2 (default: all train)");
-  verb->add_option("--min-pixels", arguments->min_pixels,
+                   "shares of the scenes, such as train=0.7,val=0.2,test=0.1 (default: all train)");
+  verb->add_option("--min-pixels", options.min_pixels,
                    "leave out instances with fewer visible pixels")
-      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--min-visible", options.min_visible,
+                   "leave out instances of which a smaller share is visible, 0 to 1")
+      ->capture_default_str();
+  verb->add_flag("--amodal", options.amodal, "masks and boxes of whole silhouettes");
+  verb->add_option("--polygon", arguments->polygon,
+                   "coco-polygon: exact, or simplified with an IoU of 0.99 or more")
+      ->check(CLI::IsMember({"exact", "simplified"}))
       ->capture_default_str();
   verb->add_option("--polygon-vertices", arguments->polygon_vertices,
-                   "YOLO: edges (for loaders that truncate) or centres (for loaders that round)")
+                   "yolo-segment: edges (for loaders that truncate) or centres (for loaders that "
+                   "round)")
       ->check(CLI::IsMember({"edges", "centres"}))
       ->capture_default_str();
+  verb->add_option("--patch-size", options.patch_size, "patches: pixels of a side; 0: as they are")
+      ->capture_default_str();
+  verb->add_option("--shard-size", options.shard_size, "webdataset: samples in a tar")
+      ->capture_default_str();
+  verb->add_option("--workers", options.workers, "threads (default: one for each core)")
+      ->check(CLI::Range(1, 256));
   verb->add_flag("--link", arguments->link, "hard-link the images instead of copying them");
   verb->add_flag("--partial", arguments->partial, "export although frames are missing");
+  verb->add_flag("--verify", arguments->verify,
+                 "write nothing: compare what is in the output folder with its source");
   verb->footer(
       "Example: seedframe export results/parts --format coco --format yolo-segment "
       "--split train=0.8,val=0.2");

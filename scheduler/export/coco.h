@@ -1,18 +1,21 @@
-// COCO instance annotations (docs/formats/coco.md).
+// COCO instances, keypoints and panoptic segmentation (docs/formats/coco.md).
 #pragma once
 
-#include "export/exporter.h"
+#include <memory>
+
+#include "export/format.h"
 
 namespace seedframe {
 
-enum class CocoMasks {
-  kRle,      ///< compressed run lengths
-  kPolygon,  ///< one polygon a part, holes by keyholes
-};
-
-/// Writes OUTPUT/coco or OUTPUT/coco-polygon. Annotations are streamed: the memory used does not
-/// depend on the number of frames.
-Result<ExportSummary> export_coco(const Dataset& dataset, const ExportOptions& options,
-                                  CocoMasks masks);
+Result<std::unique_ptr<ExportFormat>> make_coco(const Dataset& dataset,
+                                                const ExportOptions& options);
+Result<std::unique_ptr<ExportFormat>> make_coco_polygon(const Dataset& dataset,
+                                                        const ExportOptions& options);
+/// A kInput error when no asset of the dataset has keypoints.
+Result<std::unique_ptr<ExportFormat>> make_coco_keypoints(const Dataset& dataset,
+                                                          const ExportOptions& options);
+/// A kInput error for silhouettes, which overlap.
+Result<std::unique_ptr<ExportFormat>> make_coco_panoptic(const Dataset& dataset,
+                                                         const ExportOptions& options);
 
 }  // namespace seedframe

@@ -1,21 +1,17 @@
 #include "export/export_folder.h"
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include <fcntl.h>
 #include <linux/fs.h>
 #include <stdio.h>
-#include <unistd.h>
 
 #include "base/files.h"
+#include "export/export_index.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr const char* kMarker = "seedframe.json";
 
 Status remove_tree(const fs::path& path) {
   std::error_code error;
@@ -26,26 +22,16 @@ Status remove_tree(const fs::path& path) {
   return {};
 }
 
-/// Forces everything that was written to the file system of `folder` to the disk.
-Status sync_file_system(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool synced = descriptor >= 0 && ::syncfs(descriptor) == 0;
-  const int error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (synced) return {};
-  return fail(ErrorKind::kEnvironment, "cannot sync {}: {}", folder.string(), std::strerror(error));
-}
-
 /// Whether the folder may be replaced: it is not there, empty, or an export.
 Status check_replaceable(const fs::path& folder) {
   std::error_code error;
-  if (!fs::exists(folder, error) || fs::exists(folder / kMarker, error)) return {};
+  if (!fs::exists(folder, error) || fs::exists(folder / kMarkerFile, error)) return {};
   if (fs::is_directory(folder, error) && fs::is_empty(folder, error)) return {};
   return fail(
       ErrorKind::kInput,
       "{} is there already and is not an export of Seedframe (it has no {}): choose another "
       "output folder, or move it away",
-      folder.string(), kMarker);
+      folder.string(), kMarkerFile);
 }
 
 }  // namespace
@@ -54,7 +40,9 @@ ExportFolder::ExportFolder(fs::path partial, fs::path destination)
     : partial_(std::move(partial)), destination_(std::move(destination)) {}
 
 ExportFolder::ExportFolder(ExportFolder&& other) noexcept
-    : partial_(std::exchange(other.partial_, {})), destination_(std::move(other.destination_)) {}
+    : partial_(std::exchange(other.partial_, {})),
+      destination_(std::move(other.destination_)),
+      made_(std::move(other.made_)) {}
 
 ExportFolder::~ExportFolder() {
   std::error_code ignored;
@@ -72,10 +60,13 @@ Result<ExportFolder> ExportFolder::create(const fs::path& output, const std::str
 }
 
 Status ExportFolder::make_folder(const fs::path& relative) {
+  const std::lock_guard lock(made_->mutex);
+  if (!made_->paths.insert(relative).second) return {};
   return make_folders(partial_ / relative);
 }
 
 Status ExportFolder::write(const fs::path& relative, std::string_view bytes) {
+  if (Status made = make_folder(relative.parent_path()); !made) return made;
   std::ofstream stream(partial_ / relative, std::ios::binary);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();
@@ -86,6 +77,7 @@ Status ExportFolder::write(const fs::path& relative, std::string_view bytes) {
 }
 
 Status ExportFolder::place(const fs::path& source, const fs::path& relative, bool link) {
+  if (Status made = make_folder(relative.parent_path()); !made) return made;
   std::error_code error;
   if (link) {
     fs::create_hard_link(source, partial_ / relative, error);
@@ -100,8 +92,8 @@ Status ExportFolder::place(const fs::path& source, const fs::path& relative, boo
 }
 
 Status ExportFolder::commit(std::string_view marker) {
-  if (Status written = write(kMarker, marker); !written) return written;
-  if (Status synced = sync_file_system(partial_); !synced) return synced;
+  if (Status written = write(kMarkerFile, marker); !written) return written;
+  if (Status synced = sync_filesystem(partial_); !synced) return synced;
   // Exchanging the two names leaves no moment without an export.
   const int exchanged =
       ::renameat2(AT_FDCWD, partial_.c_str(), AT_FDCWD, destination_.c_str(), RENAME_EXCHANGE);

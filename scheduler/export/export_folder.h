@@ -2,6 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -10,7 +13,7 @@
 namespace seedframe {
 
 /// Names OUTPUT/<name>; until commit() everything goes to OUTPUT/.<name>.partial, which the
-/// destructor removes.
+/// destructor removes. Files may be written from several threads at once.
 class ExportFolder {
  public:
   /// A kInput error when OUTPUT/<name> holds something that is not an export of Seedframe: it would
@@ -26,7 +29,8 @@ class ExportFolder {
   const std::filesystem::path& destination() const { return destination_; }
 
   Status make_folder(const std::filesystem::path& relative);
-  /// Unlike write_file, leaves it to commit() to force the bytes to the disk, once for all files.
+  /// Makes the folders above too. Unlike write_file, leaves it to commit() to force the bytes to
+  /// the disk, once for all files.
   Status write(const std::filesystem::path& relative, std::string_view bytes);
   /// Links the file, or copies it where links are not wanted or not possible.
   Status place(const std::filesystem::path& source, const std::filesystem::path& relative,
@@ -38,8 +42,13 @@ class ExportFolder {
  private:
   ExportFolder(std::filesystem::path partial, std::filesystem::path destination);
 
+  struct MadeFolders {
+    std::mutex mutex;
+    std::set<std::filesystem::path> paths;
+  };
   std::filesystem::path partial_;
   std::filesystem::path destination_;
+  std::unique_ptr<MadeFolders> made_ = std::make_unique<MadeFolders>();
 };
 
 }  // namespace seedframe

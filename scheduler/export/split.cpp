@@ -4,12 +4,15 @@
 
 namespace seedframe {
 
-const char* split_name(Split split) { return split == Split::kTrain ? "train" : "val"; }
-
-Split split_of_scene(int scene, const ExportOptions& options) {
-  const PhiloxStream stream(options.seed, "export/split");
+int split_of_scene(int scene, std::uint64_t seed, const std::vector<SplitShare>& splits) {
+  const PhiloxStream stream(seed, "export/split");
   const double draw = stream.uniform({.scene = static_cast<std::uint32_t>(scene)});
-  return draw < options.val_share ? Split::kVal : Split::kTrain;
+  double end = 0.0;
+  for (std::size_t i = 1; i < splits.size(); ++i) {
+    end += splits[i].share;
+    if (draw < end) return static_cast<int>(i);
+  }
+  return 0;
 }
 
 }  // namespace seedframe

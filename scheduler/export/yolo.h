@@ -1,15 +1,20 @@
-// YOLO label files for detection and segmentation (docs/formats/yolo.md).
+// YOLO label files: boxes, polygons, oriented boxes, keypoints (docs/formats/yolo.md).
 #pragma once
 
-#include "export/exporter.h"
+#include <memory>
+
+#include "export/format.h"
 
 namespace seedframe {
 
-enum class YoloTask { kDetect, kSegment };
-
-/// Writes OUTPUT/yolo-detect or OUTPUT/yolo-segment. A kInput error when a side of an image is 9
-/// pixels or less: the loaders refuse it.
-Result<ExportSummary> export_yolo(const Dataset& dataset, const ExportOptions& options,
-                                  YoloTask task);
+Result<std::unique_ptr<ExportFormat>> make_yolo_detect(const Dataset& dataset,
+                                                       const ExportOptions& options);
+Result<std::unique_ptr<ExportFormat>> make_yolo_segment(const Dataset& dataset,
+                                                        const ExportOptions& options);
+Result<std::unique_ptr<ExportFormat>> make_yolo_obb(const Dataset& dataset,
+                                                    const ExportOptions& options);
+/// A kInput error when no asset of the dataset has keypoints.
+Result<std::unique_ptr<ExportFormat>> make_yolo_pose(const Dataset& dataset,
+                                                     const ExportOptions& options);
 
 }  // namespace seedframe

@@ -225,6 +225,11 @@ Result<AssetDescription> read_asset_description(const fs::path& folder) {
         read_levels(*json, what, out.levels), read_measures(*json, what, out)}) {
     if (!status) return forward_error(status);
   }
+  if (const auto found = json->find("keypoints"); found != json->end()) {
+    auto keypoints = keypoints_from_json(*found, what + ": keypoints");
+    if (!keypoints) return forward_error(keypoints);
+    out.keypoints = std::move(*keypoints);
+  }
   if (Status status = check_description(out, folder, what); !status) return forward_error(status);
   return out;
 }
@@ -234,16 +239,32 @@ Json asset_json(const AssetDescription& asset) {
   for (const LevelRecord& level : asset.levels) {
     levels.push_back(to_json(level, asset.measures.size_m));
   }
-  return {{"version", kVersion},
-          {"name", asset.name},
-          {"description", asset.description},
-          {"category", asset.category},
-          {"smooth_angle_deg", asset.smooth_angle_deg},
-          {"slots", asset.slots},
-          {"source", asset.source},
-          {"levels", levels},
-          {"measures", to_json(asset.measures, asset.self_intersections)},
-          {"repairs", to_json(asset.repairs)}};
+  Json json = {{"version", kVersion},
+               {"name", asset.name},
+               {"description", asset.description},
+               {"category", asset.category},
+               {"smooth_angle_deg", asset.smooth_angle_deg},
+               {"slots", asset.slots},
+               {"source", asset.source},
+               {"levels", levels},
+               {"measures", to_json(asset.measures, asset.self_intersections)},
+               {"repairs", to_json(asset.repairs)}};
+  if (!asset.keypoints.points.empty()) json["keypoints"] = to_json(asset.keypoints);
+  return json;
+}
+
+Status set_keypoints(const fs::path& folder, const KeypointSet& keypoints) {
+  const fs::path path = folder / asset_files::kDescription;
+  // Everything that is there must be right: it is written back.
+  if (const auto asset = read_asset_description(folder); !asset) return forward_error(asset);
+  if (Status possible = check_keypoints(keypoints, path.string()); !possible) return possible;
+  const auto text = read_file(path);
+  if (!text) return forward_error(text);
+  auto json = parse_json(*text, path.string());
+  if (!json) return forward_error(json);
+  json->erase("keypoints");
+  if (!keypoints.points.empty()) (*json)["keypoints"] = to_json(keypoints);
+  return write_file_atomically(path, readable_json(*json));
 }
 
 Status write_asset(const fs::path& folder, const AssetDescription& asset,

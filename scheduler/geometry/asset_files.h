@@ -8,6 +8,7 @@
 
 #include "base/canonical_json.h"
 #include "base/error.h"
+#include "geometry/keypoints.h"
 #include "geometry/mesh_measure.h"
 #include "geometry/mesh_repair.h"
 
@@ -54,6 +55,7 @@ struct AssetDescription {
   MeshMeasures measures;               ///< of level 0; its centroid is not stored
   std::size_t self_intersections = 0;  ///< of the mesh before compression
   RepairReport repairs;                ///< written, not read
+  KeypointSet keypoints;               ///< may have none
 };
 
 /// The name must be the folder's.
@@ -61,6 +63,9 @@ Result<AssetDescription> read_asset_description(const std::filesystem::path& fol
 
 /// As asset.json holds it.
 Json asset_json(const AssetDescription& asset);
+
+/// Puts other keypoints into asset.json and leaves the rest of it as it is.
+Status set_keypoints(const std::filesystem::path& folder, const KeypointSet& keypoints);
 
 /// Writes asset.json and the streams of all levels; the folder appears, or is replaced, at once.
 Status write_asset(const std::filesystem::path& folder, const AssetDescription& asset,

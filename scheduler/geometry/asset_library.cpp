@@ -59,6 +59,7 @@ Result<Asset> read_asset(const fs::path& folder) {
     asset.levels.push_back({level.triangles, level.error_m, level.sha256});
   }
   asset.box = bounding_box(asset.mesh);
+  asset.keypoints = description->keypoints;
   asset.lowest = LowestPoint(asset.mesh);
   return asset;
 }

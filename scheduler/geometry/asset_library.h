@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "geometry/keypoints.h"
 #include "geometry/mesh.h"
 
 namespace seedframe {
@@ -37,6 +38,7 @@ struct Asset {
   std::uint64_t bytes = 0;            ///< of mesh.drc
   std::vector<LevelOfDetail> levels;  ///< at least one, finest first
   BoundingBox box;
+  KeypointSet keypoints;
   LowestPoint lowest;
 
   /// See lowest_z(mesh, linear), but fast.

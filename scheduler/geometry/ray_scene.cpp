@@ -183,6 +183,31 @@ int RayScene::first_hit(int x, int y) const {
   return packet.hit(0);
 }
 
+bool RayScene::hides(const Eigen::Vector3d& point, double tolerance_m, int transparent) const {
+  const double distance = point.norm();
+  RTCRayHit ray{};
+  ray.ray.dir_x = static_cast<float>(point.x());
+  ray.ray.dir_y = static_cast<float>(point.y());
+  ray.ray.dir_z = static_cast<float>(point.z());
+  ray.ray.mask = 0xffffffffu;
+  // The ray's parameter is the share of the way to the point.
+  const auto nearest = static_cast<float>(scene_->camera.clip_start_m / -point.z());
+  const auto farthest = static_cast<float>(1.0 - tolerance_m / distance);
+  constexpr float kStep = 1e-6F;  // past a surface that was met
+  for (float from = nearest; from < farthest;
+       from = ray.ray.tfar * (1.0F + kStep) + kStep * nearest) {
+    ray.ray.tnear = from;
+    ray.ray.tfar = farthest;
+    ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene_->all, &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    if (static_cast<int>(ray.hit.instID[0]) != transparent) return true;
+  }
+  return false;
+}
+
 RayImage RayScene::trace(const TraceWishes& wishes) const {
   const PixelCamera& camera = scene_->camera;
   RayImage image{camera.width, camera.height, {}, {}, {}};

@@ -103,6 +103,10 @@ class RayScene {
   /// Index of the instance that the ray through the centre of a pixel hits first; -1: none.
   int first_hit(int x, int y) const;
 
+  /// Whether a surface stands between the camera and a point of its frame, `tolerance_m` or more
+  /// before it. `transparent`: the index of an instance that hides nothing; -1: none.
+  bool hides(const Eigen::Vector3d& point, double tolerance_m, int transparent) const;
+
   /// The same pixels whatever the number of threads.
   RayImage trace(const TraceWishes& wishes) const;
 

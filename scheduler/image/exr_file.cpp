@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 
 #include "base/files.h"
@@ -50,6 +51,28 @@ Status write_exr(const std::filesystem::path& path, const Image<float>& image,
                 image.width, image.height, exception.what());
   }
   return write_file_unsynced(path, output.bytes());
+}
+
+Result<Image<float>> read_exr_channel(const std::filesystem::path& path,
+                                      const std::string& channel) {
+  constexpr int kLargestSide = 1 << 20;
+  try {
+    Imf::InputFile file(path.c_str(), /*numThreads=*/0);
+    const Imath::Box2i& window = file.header().dataWindow();
+    const Imf::Channel* found = file.header().channels().findChannel(channel);
+    if (found == nullptr || found->type != Imf::FLOAT || window.min != Imath::V2i(0, 0) ||
+        window.max.x < 0 || window.max.y < 0 || window.max.x >= kLargestSide ||
+        window.max.y >= kLargestSide) {
+      return fail(ErrorKind::kCorrupt, "{} is not an image with a float channel '{}'",
+                  path.string(), channel);
+    }
+    Image<float> image(window.max.x + 1, window.max.y + 1);
+    file.setFrameBuffer(frame_buffer(image, {channel}));
+    file.readPixels(0, window.max.y);
+    return image;
+  } catch (const std::exception& exception) {
+    return fail(ErrorKind::kCorrupt, "cannot read {}: {}", path.string(), exception.what());
+  }
 }
 
 }  // namespace seedframe

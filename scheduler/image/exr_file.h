@@ -16,4 +16,8 @@ namespace seedframe {
 Status write_exr(const std::filesystem::path& path, const Image<float>& image,
                  const std::vector<std::string>& channels);
 
+/// One float channel of what write_exr wrote; a kCorrupt error says what is wrong with the file.
+Result<Image<float>> read_exr_channel(const std::filesystem::path& path,
+                                      const std::string& channel);
+
 }  // namespace seedframe

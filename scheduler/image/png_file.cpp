@@ -40,22 +40,29 @@ constexpr int kColorFilter = PNG_FILTER_AVG;  // noise: the mean of two neighbou
 constexpr int kLabelFilter = PNG_FILTER_UP;   // flat regions: rows repeat
 
 template <class T>
-std::string encode(const Image<T>& image) {
+std::string encode(const Image<T>& image, PngContent content, const Palette* palette = nullptr) {
   constexpr int kBitDepth = 8 * sizeof(T);
-  const bool color = image.channels == 3;
+  const bool photo = image.channels == 3 && content == PngContent::kPhoto;
+  const int color = palette != nullptr    ? PNG_COLOR_TYPE_PALETTE
+                    : image.channels == 3 ? PNG_COLOR_TYPE_RGB
+                                          : PNG_COLOR_TYPE_GRAY;
   std::string bytes;
   png_structp png =
       png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, abort_on_error, ignore_warning);
   png_infop info = png_create_info_struct(png);
   png_set_write_fn(png, &bytes, append_bytes, nullptr);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
-               static_cast<png_uint_32>(image.height), kBitDepth,
-               color ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               static_cast<png_uint_32>(image.height), kBitDepth, color, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  if (color) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  if (palette != nullptr) {
+    std::vector<png_color> colors;
+    for (const auto& [red, green, blue] : *palette) colors.push_back({red, green, blue});
+    png_set_PLTE(png, info, colors.data(), static_cast<int>(colors.size()));
+  }
+  if (photo) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_compression_strategy(png, kZlibStrategy);
   png_set_compression_level(png, kZlibLevel);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, color ? kColorFilter : kLabelFilter);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, photo ? kColorFilter : kLabelFilter);
   png_write_info(png, info);
   if (kBitDepth == 16) png_set_swap(png);
   const std::size_t row_values =
@@ -128,6 +135,17 @@ class PngReader {
   int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
   int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
   int bit_depth() const { return png_get_bit_depth(png_, info_); }
+  bool has_palette() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE; }
+  Palette palette() const {
+    png_colorp colors = nullptr;
+    int count = 0;
+    png_get_PLTE(png_, info_, &colors, &count);
+    Palette palette(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < palette.size(); ++i) {
+      palette[i] = {colors[i].red, colors[i].green, colors[i].blue};
+    }
+    return palette;
+  }
   /// 0: neither grey nor RGB.
   int channels() const {
     switch (png_get_color_type(png_, info_)) {
@@ -152,25 +170,28 @@ bool can_hold(std::size_t file_bytes, std::size_t pixel_bytes) {
   return pixel_bytes / kMostExpansion <= file_bytes;
 }
 
-tl::unexpected<Error> damaged(const fs::path& path, const char* reason) {
+tl::unexpected<Error> damaged(const std::string& what, const char* reason) {
   return fail(ErrorKind::kCorrupt,
-              "{} is not the whole PNG file that was written: {}; render the frame again",
-              path.string(), reason);
+              "{} is not the whole PNG file that was written: {}; render the frame again", what,
+              reason);
 }
 
 template <class T>
-Result<Image<T>> read_png(const fs::path& path, bool color_allowed) {
+Result<Image<T>> decode(std::string_view bytes, const std::string& what, bool color_allowed,
+                        Palette* palette = nullptr) {
   constexpr int kBitDepth = 8 * sizeof(T);
-  const Result<std::string> bytes = read_file(path);
-  if (!bytes) return fail(ErrorKind::kCorrupt, "{}", bytes.error().message);
-
-  PngInput input{bytes->data(), bytes->size()};
+  PngInput input{bytes.data(), bytes.size()};
   PngReader reader(input);
-  if (!reader.header()) return damaged(path, input.message);
-  const int channels = reader.channels();
+  if (!reader.header()) return damaged(what, input.message);
+  const bool with_palette = palette != nullptr && reader.has_palette();
+  if (palette != nullptr && !with_palette) {
+    return fail(ErrorKind::kCorrupt, "{}: expected a palette", what);
+  }
+  if (with_palette) *palette = reader.palette();
+  const int channels = with_palette ? 1 : reader.channels();
   if (reader.bit_depth() != kBitDepth || channels == 0 || (channels == 3 && !color_allowed)) {
     return fail(ErrorKind::kCorrupt, "{}: expected {} with {} bits a channel, found {} with {}",
-                path.string(), color_allowed ? "grey or RGB" : "grey", kBitDepth,
+                what, color_allowed ? "grey or RGB" : "grey", kBitDepth,
                 channels == 1   ? "grey"
                 : channels == 3 ? "RGB"
                                 : "a palette or alpha",
@@ -179,8 +200,8 @@ Result<Image<T>> read_png(const fs::path& path, bool color_allowed) {
   const std::size_t row_values =
       static_cast<std::size_t>(reader.width()) * static_cast<std::size_t>(channels);
   const auto height = static_cast<std::size_t>(reader.height());
-  if (!can_hold(bytes->size(), row_values * sizeof(T) * height)) {
-    return damaged(path, "it is too short for the size that it states");
+  if (!can_hold(bytes.size(), row_values * sizeof(T) * height)) {
+    return damaged(what, "it is too short for the size that it states");
   }
 
   Image<T> image(reader.width(), reader.height(), channels);
@@ -188,29 +209,51 @@ Result<Image<T>> read_png(const fs::path& path, bool color_allowed) {
   for (std::size_t y = 0; y < height; ++y) {
     rows[y] = reinterpret_cast<png_bytep>(image.values.data() + y * row_values);
   }
-  if (!reader.pixels(rows.data())) return damaged(path, input.message);
-  if (input.position != input.size) return damaged(path, "bytes follow its end");
+  if (!reader.pixels(rows.data())) return damaged(what, input.message);
+  if (input.position != input.size) return damaged(what, "bytes follow its end");
   return image;
 }
 
 }  // namespace
 
-std::string encode_png(const Image<std::uint8_t>& image) {
+std::string encode_png(const Image<std::uint8_t>& image, PngContent content) {
   assert(image.channels == 1 || image.channels == 3);
-  return encode(image);
+  return encode(image, content);
+}
+
+std::string encode_palette_png(const Image<std::uint8_t>& image, const Palette& palette) {
+  assert(image.channels == 1 && !palette.empty() && palette.size() <= 256);
+  return encode(image, PngContent::kLabels, &palette);
 }
 
 std::string encode_png(const Image<std::uint16_t>& image) {
   assert(image.channels == 1);
-  return encode(image);
+  return encode(image, PngContent::kLabels);
+}
+
+Result<Image<std::uint8_t>> decode_png8(std::string_view bytes, const std::string& what) {
+  return decode<std::uint8_t>(bytes, what, true);
+}
+
+Result<Image<std::uint16_t>> decode_png16(std::string_view bytes, const std::string& what) {
+  return decode<std::uint16_t>(bytes, what, false);
+}
+
+Result<Image<std::uint8_t>> decode_palette_png(std::string_view bytes, const std::string& what,
+                                               Palette& palette) {
+  return decode<std::uint8_t>(bytes, what, false, &palette);
 }
 
 Result<Image<std::uint8_t>> read_png8(const fs::path& path) {
-  return read_png<std::uint8_t>(path, true);
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes) return fail(ErrorKind::kCorrupt, "{}", bytes.error().message);
+  return decode_png8(*bytes, path.string());
 }
 
 Result<Image<std::uint16_t>> read_png16(const fs::path& path) {
-  return read_png<std::uint16_t>(path, false);
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes) return fail(ErrorKind::kCorrupt, "{}", bytes.error().message);
+  return decode_png16(*bytes, path.string());
 }
 
 }  // namespace seedframe

@@ -28,6 +28,9 @@ class SceneExpander::Program {
   const ObjectPlacer& placer() const { return placer_; }
   const MaterialPicker& materials() const { return materials_; }
   const std::vector<ConstraintTally>& tallies() const { return checker_->tallies(); }
+  Result<std::vector<OfferedAsset>> offered() const {
+    return seedframe::offered_assets(compiled_.objects, placer_.assets(), config_.categories);
+  }
 
  private:
   RenderSettings render_settings(const EvaluationContext& context) const;
@@ -235,6 +238,10 @@ const std::map<std::string, std::filesystem::path>& SceneExpander::image_files()
 
 const std::map<std::string, std::string>& SceneExpander::asset_hashes() const {
   return program_->placer().asset_hashes();
+}
+
+Result<std::vector<OfferedAsset>> SceneExpander::offered_assets() const {
+  return program_->offered();
 }
 
 const std::vector<ConstraintTally>& SceneExpander::constraint_tallies() const {

@@ -17,6 +17,7 @@
 #include "scene/frame_spec.h"
 #include "scene/graphs.h"
 #include "scene/material_library.h"
+#include "scene/offered_assets.h"
 
 namespace seedframe {
 
@@ -65,6 +66,8 @@ class SceneExpander {
   const std::map<std::string, std::filesystem::path>& image_files() const;
   /// Assets used so far: name to SHA-256 of its file, for provenance.
   const std::map<std::string, std::string>& asset_hashes() const;
+  /// What any frame can hold; see offered_assets.
+  Result<std::vector<OfferedAsset>> offered_assets() const;
   /// Over all frames expanded so far, in the order of the config.
   const std::vector<ConstraintTally>& constraint_tallies() const;
 

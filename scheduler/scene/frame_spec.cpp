@@ -8,7 +8,7 @@
 namespace seedframe {
 namespace {
 
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 constexpr std::array<const char*, 4> kLightKinds = {"point", "sun", "spot", "area"};
 
 /// Appends canonical JSON; keys must come in byte order.
@@ -109,7 +109,14 @@ void write_image(Writer& out, const ImageSettings& image) {
   out.field("view", std::string_view(image.view));
 }
 
+void write_keypoint(Writer& out, const Keypoint& keypoint) {
+  out.field("inside", keypoint.inside);
+  out.field("name", std::string_view(keypoint.name));
+  out.matrix("point_m", keypoint.point_m);
+}
+
 void write_instance(Writer& out, const InstanceSpec& instance) {
+  if (!instance.asset.empty()) out.field("asset", std::string_view(instance.asset));
   out.matrix("camera_from_object", instance.camera_from_object.matrix());
   out.field("category", static_cast<double>(instance.category));
   out.key("hidden_from");
@@ -125,6 +132,7 @@ void write_instance(Writer& out, const InstanceSpec& instance) {
   }
   out.close(']');
   out.field("id", static_cast<double>(instance.id));
+  if (!instance.keypoints.empty()) out.list("keypoints", instance.keypoints, write_keypoint);
   out.numbers("materials", instance.materials);
   out.field("mesh", std::string_view(instance.mesh));
   out.field("name", std::string_view(instance.name));
@@ -239,6 +247,12 @@ InstanceSpec instance_from_json(const Json& json) {
   json.at("id").get_to(instance.id);
   json.at("category").get_to(instance.category);
   json.at("mesh").get_to(instance.mesh);
+  instance.asset = json.value("asset", std::string());
+  for (const Json& item : json.value("keypoints", Json::array())) {
+    const auto at = item.at("point_m").get<std::array<double, 3>>();
+    instance.keypoints.push_back(
+        {item.at("name").get<std::string>(), {at[0], at[1], at[2]}, item.at("inside").get<bool>()});
+  }
   json.at("materials").get_to(instance.materials);
   instance.camera_from_object = matrix_from_json(json.at("camera_from_object"));
   for (const Json& kind : json.at("hidden_from")) {

@@ -12,6 +12,7 @@
 #include "base/canonical_json.h"
 #include "base/error.h"
 #include "config/campaign_config.h"
+#include "geometry/keypoints.h"
 
 namespace seedframe {
 
@@ -60,12 +61,14 @@ struct MaterialSpec {
 };
 
 struct InstanceSpec {
-  std::string name;  ///< "<object>/<copy>"
-  int id = 0;        ///< value in the index pass; 0 for what is background (the ground)
-  int category = 0;  ///< index into the campaign's categories + 1; 0 for what has no label
-  std::string mesh;  ///< SHA-256 of the mesh buffer
+  std::string name;   ///< "<object>/<copy>"
+  int id = 0;         ///< value in the index pass; 0 for what is background (the ground)
+  int category = 0;   ///< index into the campaign's categories + 1; 0 for what has no label
+  std::string asset;  ///< its name; empty for the ground
+  std::string mesh;   ///< SHA-256 of the mesh buffer
   std::vector<int> materials;  ///< for each material slot of the mesh an index into materials
   HiddenFrom hidden_from;
+  std::vector<Keypoint> keypoints;  ///< the asset's
   Affine camera_from_object = Affine::Identity();
 };
 

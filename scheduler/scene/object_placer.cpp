@@ -191,6 +191,8 @@ void ObjectPlacer::place_instance(const CompiledObject& object,
                         fmt::format("a frame can hold at most {} objects", kLargestInstanceId));
   }
   instance.spec.category = category_index(object, *asset, pass.context);
+  instance.spec.asset = asset->name;
+  instance.spec.keypoints = asset->keypoints.points;
   instance.spec.mesh = asset->buffer_sha256;
   instance.spec.materials = slot_materials(object, *asset, pass);
   instance.spec.hidden_from = object.hidden_from;

@@ -19,6 +19,8 @@ class ObjectPlacer {
   ObjectPlacer(AssetLibrary assets, std::vector<std::string> categories)
       : assets_(std::move(assets)), categories_(std::move(categories)) {}
 
+  const AssetLibrary& assets() const { return assets_; }
+
   /// Loads what can be known without a draw; unknown assets, categories and slots are errors.
   void check_names(const CompiledObject& object, Diagnostics& errors) const;
 

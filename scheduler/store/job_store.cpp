@@ -294,6 +294,16 @@ Status JobStore::for_each_frame(const std::function<Status(const FrameRow&)>& vi
   return select.status();
 }
 
+Result<std::vector<FrameRow>> JobStore::frames_from(std::int64_t first, int most) const {
+  const std::string sql = std::string(kFrameColumns) + "WHERE frame >= ? ORDER BY frame LIMIT ?";
+  Statement select(database_->connection, sql.c_str());
+  select.bind(1, first).bind(2, std::int64_t{most});
+  std::vector<FrameRow> rows;
+  while (select.step()) rows.push_back(frame_row(select));
+  if (Status done = select.status(); !done) return forward_error(done);
+  return rows;
+}
+
 Result<std::vector<AttemptRow>> JobStore::attempts(std::int64_t frame) const {
   const std::string sql = std::string(kAttemptColumns) + "WHERE frame = ? ORDER BY attempt";
   Statement select(database_->connection, sql.c_str());

@@ -100,6 +100,8 @@ class JobStore {
   Result<std::optional<FrameRow>> frame(std::int64_t frame) const;
   /// In the order of frames; stops at the first error of `visit`.
   Status for_each_frame(const std::function<Status(const FrameRow&)>& visit) const;
+  /// Up to `most` frames from index `first` on, in order.
+  Result<std::vector<FrameRow>> frames_from(std::int64_t first, int most) const;
   Result<std::vector<AttemptRow>> attempts(std::int64_t frame) const;
   /// The newest failures, newest first.
   Result<std::vector<AttemptRow>> recent_failures(int most) const;

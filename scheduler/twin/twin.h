@@ -29,6 +29,11 @@ class Twin {
   /// that `visible_ids` gives to its instance; that is instance_ids, or what Blender rendered.
   std::vector<Silhouette> silhouettes(const Image<std::uint16_t>& visible_ids) const;
 
+  /// Whether something stands between the camera and a point of its frame; see RayScene::hides.
+  bool hides(const Eigen::Vector3d& point, double tolerance_m, int transparent) const {
+    return scene_.hides(point, tolerance_m, transparent);
+  }
+
   /// Of an instance's mesh, in object space, metres.
   const BoundingBox& object_box(std::size_t instance) const {
     return scene_.instances()[instance].mesh->box();

@@ -18,7 +18,7 @@ const CubeBuffer& cube() {
 
 FrameLabels labels_of(const FrameSpec& spec) {
   const auto twin = TwinTracer().trace(spec, cube().buffers, TwinTracer::Passes::kIdsOnly);
-  auto labels = make_labels(spec, twin->instance_ids);
+  auto labels = make_labels(spec, {"cube"}, twin->instance_ids);
   add_amodal_labels(*labels, spec, *twin, twin->instance_ids);
   return *labels;
 }
@@ -91,10 +91,10 @@ TEST(Amodal, CornersOfTheBoxAreProjected) {
   EXPECT_EQ(amodal.object_box.low, Eigen::Vector3d(-1, -1, -1));
   EXPECT_EQ(amodal.object_box.high, Eigen::Vector3d(1, 1, 1));
   // Corner 7 is (1, 1, 1): 10 m ahead; corner 0 is (-1, -1, -1): 12 m ahead. y points down.
-  EXPECT_NEAR((*amodal.box_corners_px[7])[0], 89.5, 1e-9);
-  EXPECT_NEAR((*amodal.box_corners_px[7])[1], 49.5, 1e-9);
-  EXPECT_NEAR((*amodal.box_corners_px[0])[0], 79.5 - 100.0 / 12.0, 1e-9);
-  EXPECT_NEAR((*amodal.box_corners_px[0])[1], 59.5 + 100.0 / 12.0, 1e-9);
+  EXPECT_NEAR((*amodal.box_corners_px[7])[0], 90.0, 1e-9);
+  EXPECT_NEAR((*amodal.box_corners_px[7])[1], 50.0, 1e-9);
+  EXPECT_NEAR((*amodal.box_corners_px[0])[0], 80.0 - 100.0 / 12.0, 1e-9);
+  EXPECT_NEAR((*amodal.box_corners_px[0])[1], 60.0 + 100.0 / 12.0, 1e-9);
 }
 
 TEST(Amodal, ThePoseIsRotationScaleAndTranslation) {
@@ -173,6 +173,59 @@ TEST(Rle, NonsenseIsRefused) {
   for (const char* text : {"", "o", "oooooooooooooo", " ", "\xff", "00", "O"}) {
     EXPECT_FALSE(rle_from_string(text, 3, 3)) << text;
   }
+}
+
+/// Cube 1 at 10 m, seen by its front face; cube 2 stands before its left half.
+FrameSpec with_keypoints() {
+  FrameSpec spec = half_hidden();
+  spec.instances[0].keypoints = {
+      {"front_right", {0.95, 0.0, 1.0}, false}, {"front_left", {-0.95, 0.0, 1.0}, false},
+      {"back", {0.95, 0.0, -1.0}, false},       {"middle", {0.95, 0.0, 0.0}, true},
+      {"left_inside", {-0.95, 0.0, 0.0}, true}, {"far_out", {100.0, 0.0, 0.0}, false}};
+  return spec;
+}
+
+TEST(Keypoints, AreVisibleHiddenOrOutside) {
+  const FrameLabels labels = labels_of(with_keypoints());
+  const auto& points = labels.instances[0].keypoints;
+  ASSERT_EQ(points.size(), 6U);
+  EXPECT_EQ(points[0].visibility, Visibility::kVisible) << "on the surface that is seen";
+  EXPECT_EQ(points[1].visibility, Visibility::kHidden) << "behind the other cube";
+  EXPECT_EQ(points[2].visibility, Visibility::kHidden) << "behind its own cube";
+  EXPECT_EQ(points[3].visibility, Visibility::kVisible) << "inside, and its own cube hides it not";
+  EXPECT_EQ(points[4].visibility, Visibility::kHidden) << "the other cube does";
+  EXPECT_EQ(points[5].visibility, Visibility::kOutside);
+  EXPECT_EQ(points[5].px, (std::array<double, 2>{0.0, 0.0}));
+}
+
+TEST(Keypoints, StandWhereTheyAreSeen) {
+  const FrameLabels labels = labels_of(with_keypoints());
+  // The front face is 10 m away and 20 px wide, from the pixel edge at 70 to that at 90.
+  EXPECT_NEAR(labels.instances[0].keypoints[0].px[0], 80.0 + 9.5, 1e-9);
+  EXPECT_NEAR(labels.instances[0].keypoints[0].px[1], 60.0, 1e-9);
+  EXPECT_NEAR(labels.instances[0].keypoints[1].px[0], 80.0 - 9.5, 1e-9);
+}
+
+TEST(Keypoints, BehindTheCameraAreOutside) {
+  FrameSpec spec = with_keypoints();
+  spec.instances[0].camera_from_object(2, 3) = 20.0;
+  for (const KeypointLabel& point : labels_of(spec).instances[0].keypoints) {
+    EXPECT_EQ(point.visibility, Visibility::kOutside);
+  }
+}
+
+TEST(Keypoints, WhatTheCameraDoesNotSeeHidesNothing) {
+  FrameSpec spec = with_keypoints();
+  spec.instances[1].hidden_from.camera = true;
+  EXPECT_EQ(labels_of(spec).instances[0].keypoints[1].visibility, Visibility::kVisible);
+}
+
+TEST(SilhouetteAreaIn, CountsInsideTheBoxOnly) {
+  const AmodalLabel amodal = *labels_of(half_hidden()).instances[0].amodal;
+  EXPECT_EQ(silhouette_area_in(amodal, {70, 50, 20, 20}), 400);
+  EXPECT_EQ(silhouette_area_in(amodal, {0, 0, 160, 120}), 400);
+  EXPECT_EQ(silhouette_area_in(amodal, {80, 55, 100, 5}), 50);
+  EXPECT_EQ(silhouette_area_in(amodal, {0, 0, 70, 120}), 0);
 }
 
 }  // namespace

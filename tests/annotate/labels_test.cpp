@@ -11,6 +11,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
+const std::vector<std::string> kCategories = {"cube", "nut", "bolt", "gear"};
+
 InstanceSpec instance(std::string name, int id, int category) {
   InstanceSpec spec;
   spec.name = std::move(name);
@@ -41,7 +43,7 @@ struct SmallFrame {
 
 TEST(MakeLabels, MeasuresEveryInstanceInTheOrderOfTheSpec) {
   const SmallFrame frame;
-  const auto labels = make_labels(frame.spec, frame.ids);
+  const auto labels = make_labels(frame.spec, kCategories, frame.ids);
   ASSERT_TRUE(labels) << labels.error().message;
   EXPECT_EQ(labels->width, 4);
   EXPECT_EQ(labels->height, 3);
@@ -63,7 +65,7 @@ TEST(MakeLabels, NamesAnUnknownIdAndItsFirstPixel) {
   SmallFrame frame;
   frame.ids.at(1, 3) = 77;
   frame.ids.at(2, 0) = 77;
-  const auto labels = make_labels(frame.spec, frame.ids);
+  const auto labels = make_labels(frame.spec, kCategories, frame.ids);
   ASSERT_FALSE(labels);
   EXPECT_EQ(labels.error().kind, ErrorKind::kRender);
   EXPECT_THAT(labels.error().message, HasSubstr("id 77"));
@@ -73,7 +75,7 @@ TEST(MakeLabels, NamesAnUnknownIdAndItsFirstPixel) {
 TEST(MakeLabels, RefusesAnImageOfAnotherSize) {
   SmallFrame frame;
   frame.spec.render.width = 5;
-  const auto labels = make_labels(frame.spec, frame.ids);
+  const auto labels = make_labels(frame.spec, kCategories, frame.ids);
   ASSERT_FALSE(labels);
   EXPECT_EQ(labels.error().kind, ErrorKind::kRender);
   EXPECT_THAT(labels.error().message, HasSubstr("4x3"));
@@ -82,7 +84,7 @@ TEST(MakeLabels, RefusesAnImageOfAnotherSize) {
 TEST(MakeLabels, RefusesTwoInstancesWithOneId) {
   SmallFrame frame;
   frame.spec.instances.push_back(instance("bolt/3", 5, 1));
-  const auto labels = make_labels(frame.spec, frame.ids);
+  const auto labels = make_labels(frame.spec, kCategories, frame.ids);
   ASSERT_FALSE(labels);
   EXPECT_THAT(labels.error().message, HasSubstr("'nut/0'"));
   EXPECT_THAT(labels.error().message, HasSubstr("'bolt/3'"));
@@ -91,7 +93,7 @@ TEST(MakeLabels, RefusesTwoInstancesWithOneId) {
 TEST(MakeLabels, HoldsTheLargestId) {
   IdImage ids(2, 1);
   ids.at(0, 1) = 65535;
-  const auto labels = make_labels(spec_of(2, 1, {instance("a/0", 65535, 1)}), ids);
+  const auto labels = make_labels(spec_of(2, 1, {instance("a/0", 65535, 1)}), kCategories, ids);
   ASSERT_TRUE(labels);
   EXPECT_EQ(labels->instances[0].area_px, 1);
 }
@@ -132,17 +134,24 @@ TEST(SemanticImage, HoldsCategoriesAndZeroForDistractors) {
 }
 
 Json small_json() {
-  const SmallFrame frame;
-  return to_json(*make_labels(frame.spec, frame.ids));
+  SmallFrame frame;
+  frame.spec.camera.focal_px = {100, 101};
+  frame.spec.camera.center_px = {2, 1};
+  frame.spec.instances[1].asset = "hex_nut";
+  auto labels = make_labels(frame.spec, kCategories, frame.ids);
+  labels->instances[0].keypoints = {{"bore", {1.5, 0.25}, Visibility::kHidden}};
+  return to_json(*labels);
 }
 
 TEST(LabelsJson, IsPinned) {
   EXPECT_EQ(canonical_json(small_json()),
-            R"({"height":3,"instances":[)"
-            R"({"area_px":3,"box":[1,0,2,2],"category":2,"id":5,"name":"nut/0"},)"
-            R"({"area_px":0,"box":[0,0,0,0],"category":1,"id":9,"name":"cube/0"},)"
-            R"({"area_px":1,"box":[3,2,1,1],"category":0,"id":2,"name":"rock/0"}],)"
-            R"("twin_exact":true,"version":2,"width":4})");
+            R"({"camera":{"center_px":[2,1],"focal_px":[100,101]},)"
+            R"("categories":["cube","nut","bolt","gear"],"height":3,"instances":[)"
+            R"({"area_px":3,"asset":"hex_nut","box":[1,0,2,2],"category":2,"id":5,)"
+            R"("keypoints":[{"name":"bore","px":[1.5,0.25],"visibility":1}],"name":"nut/0"},)"
+            R"({"area_px":0,"asset":"","box":[0,0,0,0],"category":1,"id":9,"name":"cube/0"},)"
+            R"({"area_px":1,"asset":"","box":[3,2,1,1],"category":0,"id":2,"name":"rock/0"}],)"
+            R"("twin_exact":true,"version":3,"width":4})");
 }
 
 TEST(LabelsJson, ReadsBackWhatWasWritten) {
@@ -156,16 +165,17 @@ TEST(LabelsJson, ReadsBackWhatWasWritten) {
 
 TEST(LabelsJson, ANewerVersionIsNamed) {
   Json json = small_json();
-  json["version"] = 3;
+  json["version"] = 4;
   const auto labels = labels_from_json(json, "labels.json");
   ASSERT_FALSE(labels);
   EXPECT_EQ(labels.error().kind, ErrorKind::kCorrupt);
-  EXPECT_THAT(labels.error().message, HasSubstr("version 3"));
-  EXPECT_THAT(labels.error().message, HasSubstr("reads version 2"));
+  EXPECT_THAT(labels.error().message, HasSubstr("version 4"));
+  EXPECT_THAT(labels.error().message, HasSubstr("reads version 3"));
 }
 
 TEST(LabelsJson, EveryMissingKeyIsNamed) {
-  for (const std::string key : {"version", "width", "height", "twin_exact", "instances"}) {
+  for (const std::string key :
+       {"version", "width", "height", "twin_exact", "instances", "categories", "camera"}) {
     Json json = small_json();
     ASSERT_EQ(json.erase(key), 1U);
     const auto labels = labels_from_json(json, "f/labels.json");
@@ -174,7 +184,7 @@ TEST(LabelsJson, EveryMissingKeyIsNamed) {
     EXPECT_THAT(labels.error().message, HasSubstr("f/labels.json"));
     EXPECT_THAT(labels.error().message, HasSubstr("'" + key + "'"));
   }
-  for (const std::string key : {"id", "category", "name", "area_px", "box"}) {
+  for (const std::string key : {"id", "category", "name", "asset", "area_px", "box"}) {
     Json json = small_json();
     ASSERT_EQ(json["instances"][1].erase(key), 1U);
     const auto labels = labels_from_json(json, "f/labels.json");
@@ -198,7 +208,8 @@ TEST(LabelsJson, EveryWrongTypeIsAnError) {
   }
   for (const auto& [key, value] : good["instances"][0].items()) {
     for (const Json& replacement : wrong) {
-      if (key == "name" && replacement.is_string()) continue;
+      if ((key == "name" || key == "asset") && replacement.is_string()) continue;
+      if (key == "keypoints" && replacement.empty()) continue;  // there may be none
       Json json = small_json();
       json["instances"][0][key] = replacement;
       EXPECT_FALSE(labels_from_json(json, "labels.json")) << key << " " << replacement;

@@ -27,11 +27,11 @@ Bitmap decode(const Json& segmentation, int height, int width) {
                                           height, width);
 }
 
-class ExportCoco : public ::testing::TestWithParam<CocoMasks> {
+class ExportCoco : public ::testing::TestWithParam<std::string> {
  protected:
   ExportCoco() : campaign_(scratch_.path() / "campaign") {}
   Result<ExportSummary> run(const ExportOptions& options) {
-    return export_coco(campaign_.dataset(), options, GetParam());
+    return export_one(campaign_.dataset(), GetParam(), options);
   }
   ExportOptions options() const { return {.output = scratch_.path() / "out"}; }
 
@@ -39,9 +39,9 @@ class ExportCoco : public ::testing::TestWithParam<CocoMasks> {
   SyntheticDataset campaign_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Masks, ExportCoco, ::testing::Values(CocoMasks::kRle, CocoMasks::kPolygon),
+INSTANTIATE_TEST_SUITE_P(Masks, ExportCoco, ::testing::Values("coco", "coco-polygon"),
                          [](const auto& param) {
-                           return param.param == CocoMasks::kRle ? "Rle" : "Polygon";
+                           return param.param == "coco" ? "Rle" : "Polygon";
                          });
 
 TEST_P(ExportCoco, HoldsExactlyTheMasksThatWereRendered) {
@@ -50,13 +50,13 @@ TEST_P(ExportCoco, HoldsExactlyTheMasksThatWereRendered) {
   ASSERT_TRUE(summary) << summary.error().message;
   const Json coco = read_coco(summary->folder);
   std::map<std::int64_t, std::vector<Json>> annotations;
-  std::int64_t last_id = 0;
+  std::set<std::int64_t> ids;
   for (const Json& annotation : coco.at("annotations")) {
-    EXPECT_EQ(annotation.at("id"), ++last_id);
+    EXPECT_TRUE(ids.insert(annotation.at("id").get<std::int64_t>()).second);
     annotations[annotation.at("image_id").get<std::int64_t>()].push_back(annotation);
   }
   std::size_t compared = 0;
-  for (const DatasetFrame& frame : campaign_.dataset().frames) {
+  for (const DatasetFrame& frame : campaign_.frames()) {
     SCOPED_TRACE(frame.index);
     const Truth& truth = campaign_.truth(frame.index);
     const std::vector<InstanceLabel> expected = exported_instances(truth);
@@ -68,6 +68,7 @@ TEST_P(ExportCoco, HoldsExactlyTheMasksThatWereRendered) {
       EXPECT_EQ(found[i].at("bbox"), Json({box.x, box.y, box.width, box.height}));
       EXPECT_EQ(found[i].at("area"), expected[i].area_px);
       EXPECT_EQ(found[i].at("iscrowd"), 0);
+      EXPECT_EQ(found[i].at("id"), (frame.index + 1) * 100000 + expected[i].id);
       const Bitmap mask = decode(found[i].at("segmentation"), truth.ids.height, truth.ids.width);
       EXPECT_EQ(mask.values, bitmap_of(truth.ids, expected[i].id).values);
       ++compared;
@@ -90,7 +91,7 @@ TEST_P(ExportCoco, ListsEveryImageAndCategory) {
   ASSERT_EQ(coco.at("images").size(), 10U);
   for (std::size_t i = 0; i < 10; ++i) {
     const Json& image = coco.at("images")[i];
-    const DatasetFrame& frame = campaign_.dataset().frames[i];
+    const DatasetFrame& frame = campaign_.frames()[i];
     EXPECT_EQ(image.at("id"), frame.index + 1);
     EXPECT_EQ(image.at("width"), 160);
     EXPECT_EQ(image.at("height"), 120);
@@ -104,7 +105,7 @@ TEST_P(ExportCoco, ListsEveryImageAndCategory) {
   ASSERT_EQ(summary->splits.size(), 1U);
   EXPECT_EQ(summary->splits[0].images, 10);
   EXPECT_EQ(summary->splits[0].background_images, 1);
-  EXPECT_EQ(static_cast<std::size_t>(summary->splits[0].annotations),
+  EXPECT_EQ(static_cast<std::size_t>(at(summary->splits[0].counts, Count::kAnnotations)),
             coco.at("annotations").size());
   EXPECT_TRUE(summary->warnings.empty());
 }
@@ -112,8 +113,8 @@ TEST_P(ExportCoco, ListsEveryImageAndCategory) {
 TEST_P(ExportCoco, SplitsByScene) {
   campaign_.add_ten_frames();
   ExportOptions split = options();
-  split.val_share = 0.4;
-  split.seed = 2;
+  split.splits = {{"train", 0.6}, {"val", 0.4}};
+  campaign_.dataset().seed = 2;
   const auto summary = run(split);
   ASSERT_TRUE(summary) << summary.error().message;
   std::set<std::int64_t> images;
@@ -124,7 +125,7 @@ TEST_P(ExportCoco, SplitsByScene) {
     EXPECT_FALSE(coco.at("images").empty());
     for (const Json& image : coco.at("images")) {
       const auto index = image.at("id").get<std::int64_t>() - 1;
-      EXPECT_EQ(split_name(split_of_scene(static_cast<int>(index) / 2, split)), name);
+      EXPECT_EQ(split_of_scene(static_cast<int>(index) / 2, 2, split.splits) == 1, name == "val");
       EXPECT_TRUE(images.insert(index).second);
       EXPECT_TRUE(fs::exists(summary->folder / "images" / name / (frame_stem(index) + ".png")));
     }
@@ -143,21 +144,23 @@ TEST_P(ExportCoco, LeavesOutAndCountsSmallInstances) {
   large.min_pixels = 2;
   const auto summary = run(large);
   ASSERT_TRUE(summary) << summary.error().message;
-  EXPECT_EQ(summary->splits[0].annotations, 2);
-  EXPECT_EQ(summary->splits[0].skipped_small, 1);  // the gear; not what is wholly hidden
+  EXPECT_EQ(at(summary->splits[0].counts, Count::kAnnotations), 2);
+  EXPECT_EQ(at(summary->splits[0].counts, Count::kTooSmall),
+            1);  // the gear; not what is wholly hidden
   EXPECT_EQ(read_coco(summary->folder).at("annotations").size(), 2U);
 }
 
-TEST(CocoFile, IsPinned) {
+TEST(CocoEntries, ArePinned) {
   const ScratchFolder scratch;
   SyntheticDataset campaign(scratch.path() / "campaign");
   campaign.dataset().categories = {"bolt", "nut", "gear"};
+  campaign.dataset().keypoints.resize(3);
   IdImage ids(4, 3);
   ids.at(0, 0) = ids.at(1, 1) = 3;
   ids.at(2, 3) = 40;
   ids.at(2, 0) = 4;
   campaign.add_frame(41, 5, ids);
-  const auto rle = export_coco(campaign.dataset(), {.output = scratch.path()}, CocoMasks::kRle);
+  const auto rle = export_one(campaign.dataset(), "coco", {.output = scratch.path()});
   ASSERT_TRUE(rle) << rle.error().message;
   const std::string head = R"({
 "info":{"description":"Seedframe campaign 'parts'","version":"1"},
@@ -168,26 +171,25 @@ TEST(CocoFile, IsPinned) {
 {"id":3,"name":"gear","supercategory":"object"}
 ],
 "images":[
-{"file_name":"000041.png","height":3,"id":42,"seedframe_frame_id":"id-of-frame-41","width":4}
+{"file_name":"000041.png","height":3,"id":42,"seedframe_frame_id":"ffffffffffffffffffffffffffffffffffffffffffffffffffffffffffff1041","width":4}
 ],
 "annotations":[
 )";
   EXPECT_EQ(
       *read_file(rle->folder / "annotations/instances_train.json"),
       head +
-          R"({"area":2,"bbox":[0,0,2,2],"category_id":1,"id":1,"image_id":42,"iscrowd":0,"segmentation":{"counts":"01304","size":[3,4]}},
-{"area":1,"bbox":[3,2,1,1],"category_id":3,"id":2,"image_id":42,"iscrowd":0,"segmentation":{"counts":";1","size":[3,4]}}
+          R"({"area":2,"bbox":[0,0,2,2],"category_id":1,"id":4200003,"image_id":42,"iscrowd":0,"segmentation":{"counts":"01304","size":[3,4]},"visible_fraction":0.3333333333333333},
+{"area":1,"bbox":[3,2,1,1],"category_id":3,"id":4200040,"image_id":42,"iscrowd":0,"segmentation":{"counts":";1","size":[3,4]},"visible_fraction":0.5}
 ]
 }
 )");
-  const auto polygons =
-      export_coco(campaign.dataset(), {.output = scratch.path()}, CocoMasks::kPolygon);
+  const auto polygons = export_one(campaign.dataset(), "coco-polygon", {.output = scratch.path()});
   ASSERT_TRUE(polygons) << polygons.error().message;
   EXPECT_EQ(
       *read_file(polygons->folder / "annotations/instances_train.json"),
       head +
-          R"({"area":2,"bbox":[0,0,2,2],"category_id":1,"id":1,"image_id":42,"iscrowd":0,"segmentation":[[0,0,1,0,1,1,2,1,2,2,1,2,1,1,0,1]]},
-{"area":1,"bbox":[3,2,1,1],"category_id":3,"id":2,"image_id":42,"iscrowd":0,"segmentation":[[3,2,4,2,4,3,3,3]]}
+          R"({"area":2,"bbox":[0,0,2,2],"category_id":1,"id":4200003,"image_id":42,"iscrowd":0,"segmentation":[[0,0,1,0,1,1,2,1,2,2,1,2,1,1,0,1]],"visible_fraction":0.3333333333333333},
+{"area":1,"bbox":[3,2,1,1],"category_id":3,"id":4200040,"image_id":42,"iscrowd":0,"segmentation":[[3,2,4,2,4,3,3,3]],"visible_fraction":0.5}
 ]
 }
 )");

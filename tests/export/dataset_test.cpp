@@ -20,7 +20,10 @@ class LoadFrame : public ::testing::Test {
   }
 
   Result<LoadedFrame> load() const {
-    return load_frame(campaign_.dataset(), campaign_.dataset().frames.at(0));
+    const DatasetFrame& frame = campaign_.frames().at(0);
+    const auto files = FrameFiles::open(campaign_.dataset(), frame, {.image_file = true});
+    if (!files) return forward_error(files);
+    return files->load();
   }
   fs::path file(const char* name) const { return campaign_.frame_folder(17) / name; }
 
@@ -30,6 +33,7 @@ class LoadFrame : public ::testing::Test {
     Json json = *parse_json(*read_file(file(frame_files::kLabels)), "labels");
     edit(json);
     ASSERT_TRUE(write_file(file(frame_files::kLabels), readable_json(json)));
+    campaign_.write_manifest(campaign_.frames().at(0));
   }
 
   void expect_corrupt(const std::vector<std::string>& words) const {
@@ -70,6 +74,7 @@ TEST_F(LoadFrame, NoticesAnInstanceThatTheImageDoesNotHave) {
   IdImage ids(12, 10);
   ids.at(2, 3) = ids.at(2, 4) = 3;
   ASSERT_TRUE(write_file(file(frame_files::kInstances), encode_png(ids)));
+  campaign_.write_manifest(campaign_.frames().at(0));
   expect_corrupt({"instance 4", "'rock/0'", "instances.png has 0"});
 }
 
@@ -78,15 +83,55 @@ TEST_F(LoadFrame, NoticesAnotherSize) {
   expect_corrupt({"13x10", "12x10"});
 }
 
-TEST_F(LoadFrame, NoticesACategoryThatTheCampaignDoesNotHave) {
+TEST_F(LoadFrame, NoticesACategoryThatTheLabelsDoNotHave) {
   edit_labels([](Json& json) { json["instances"][0]["category"] = 5; });
-  expect_corrupt({"instance 3", "category 5", "has 4"});
+  expect_corrupt({"instances[0]", "category 5 of 4"});
+}
+
+TEST_F(LoadFrame, NamesAClassThatTheConfigNoLongerHas) {
+  campaign_.dataset().categories = {"bolt", "gear", "say \"über\""};
+  expect_corrupt({"class 'no'", "no longer has", "submit"});
+}
+
+TEST_F(LoadFrame, NoticesClassesInAnotherOrder) {
+  std::swap(campaign_.dataset().categories[0], campaign_.dataset().categories[1]);
+  expect_corrupt({"another order"});
+}
+
+TEST_F(LoadFrame, NoticesAMaskThatWasChangedAfterwards) {
+  IdImage ids(12, 10);
+  ids.at(2, 3) = ids.at(2, 4) = 3;
+  ids.at(7, 8) = 4;
+  ASSERT_TRUE(write_file(file(frame_files::kInstances), encode_png(ids)));
+  expect_corrupt({"instances.png is not as it was written"});
+}
+
+TEST_F(LoadFrame, NoticesAnImageThatWasChangedAfterwards) {
+  std::string bytes = *read_file(file(frame_files::kImage));
+  bytes[bytes.size() / 2] ^= 1;
+  ASSERT_TRUE(write_file(file(frame_files::kImage), bytes));
+  expect_corrupt({"image.png is not as it was written"});
+}
+
+TEST_F(LoadFrame, TheKeyChangesWithAnyFileAndWithTheScene) {
+  const auto key = [this] {
+    return FrameFiles::open(campaign_.dataset(), campaign_.frames().at(0), {})->key();
+  };
+  const std::string before = key();
+  EXPECT_EQ(key(), before);
+  ++campaign_.frames().at(0).scene;
+  EXPECT_NE(key(), before);
+  --campaign_.frames().at(0).scene;
+  ASSERT_TRUE(write_file(file(frame_files::kImage), encode_png(Image<std::uint8_t>(12, 10, 3))));
+  campaign_.write_manifest(campaign_.frames().at(0));
+  EXPECT_NE(key(), before);
 }
 
 TEST_F(LoadFrame, NoticesLabelsThatAreCut) {
   const std::string text = *read_file(file(frame_files::kLabels));
   for (const std::size_t length : {std::size_t{0}, std::size_t{1}, text.size() / 2}) {
     ASSERT_TRUE(write_file(file(frame_files::kLabels), text.substr(0, length)));
+    campaign_.write_manifest(campaign_.frames().at(0));
     expect_corrupt({"labels.json"});
   }
 }

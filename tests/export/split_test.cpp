@@ -8,7 +8,7 @@ namespace {
 int val_scenes(double share, std::uint64_t seed, int scenes) {
   int val = 0;
   for (int scene = 0; scene < scenes; ++scene) {
-    val += split_of_scene(scene, {.output = {}, .val_share = share, .seed = seed}) == Split::kVal;
+    val += split_of_scene(scene, seed, {{"train", 1.0 - share}, {"val", share}});
   }
   return val;
 }
@@ -24,10 +24,10 @@ TEST(Split, FollowsTheShare) {
 TEST(Split, ALargerShareOnlyAddsScenes) {
   for (int scene = 0; scene < 1000; ++scene) {
     const auto split = [scene](double share) {
-      return split_of_scene(scene, {.output = {}, .val_share = share, .seed = 3});
+      return split_of_scene(scene, 3, {{"train", 1.0 - share}, {"val", share}});
     };
-    if (split(0.2) == Split::kVal) {
-      EXPECT_EQ(split(0.3), Split::kVal);
+    if (split(0.2) == 1) {
+      EXPECT_EQ(split(0.3), 1);
     }
   }
 }
@@ -37,10 +37,21 @@ TEST(Split, ALargerShareOnlyAddsScenes) {
 TEST(Split, IsPinned) {
   std::string splits;
   for (int scene = 0; scene < 24; ++scene) {
-    const Split split = split_of_scene(scene, {.output = {}, .val_share = 0.25, .seed = 7});
-    splits += split == Split::kVal ? 'v' : 't';
+    const int split = split_of_scene(scene, 7, {{"train", 0.75}, {"val", 0.25}});
+    splits += split == 1 ? 'v' : 't';
   }
   EXPECT_EQ(splits, "vtttvttttttttvvtttvttttt");
+}
+
+TEST(Split, ATestShareTakesNothingFromVal) {
+  int test = 0;
+  for (int scene = 0; scene < 1000; ++scene) {
+    const int two = split_of_scene(scene, 3, {{"train", 0.8}, {"val", 0.2}});
+    const int three = split_of_scene(scene, 3, {{"train", 0.7}, {"val", 0.2}, {"test", 0.1}});
+    EXPECT_EQ(two == 1, three == 1);
+    test += three == 2;
+  }
+  EXPECT_NEAR(test, 100, 48);  // five standard deviations
 }
 
 }  // namespace

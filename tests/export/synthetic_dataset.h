@@ -12,10 +12,13 @@
 #include <unistd.h>
 
 #include "../annotate/mask_cases.h"
+#include "annotate/rle.h"
 #include "base/campaign_files.h"
 #include "base/canonical_json.h"
 #include "base/files.h"
-#include "export/exporter.h"
+#include "base/manifest.h"
+#include "base/sha256.h"
+#include "export/export_run.h"
 #include "image/png_file.h"
 
 namespace seedframe {
@@ -51,6 +54,7 @@ class ScratchFolder {
 
 inline InstanceSpec labelled(std::string name, int id, int category) {
   InstanceSpec spec;
+  spec.asset = name.substr(0, name.find('/'));
   spec.name = std::move(name);
   spec.id = id;
   spec.category = category;
@@ -74,12 +78,22 @@ class SyntheticDataset {
  public:
   explicit SyntheticDataset(fs::path folder) : folder_(std::move(folder)) {
     dataset_.name = "parts";
+    dataset_.keypoints.resize(4);
+    dataset_.keypoints[0] = {{"head", "tip"}, {{0, 1}}, {}};
+    dataset_.frames = [this] {
+      return [this, next = std::size_t{0}]() mutable -> Result<std::optional<DatasetFrame>> {
+        if (next == frames_.size()) return std::nullopt;
+        return frames_[next++];
+      };
+    };
     // The second name needs quotes in YAML, the fourth in JSON; the fourth never appears.
     dataset_.categories = {"bolt", "no", "gear", "say \"über\""};
   }
 
   const Dataset& dataset() const { return dataset_; }
   Dataset& dataset() { return dataset_; }
+  const std::vector<DatasetFrame>& frames() const { return frames_; }
+  std::vector<DatasetFrame>& frames() { return frames_; }
   const Truth& truth(std::int64_t index) const { return truths_.at(index); }
   fs::path frame_folder(std::int64_t index) const { return CampaignFiles(folder_).frame(index); }
 
@@ -88,17 +102,32 @@ class SyntheticDataset {
     spec.render.width = ids.width;
     spec.render.height = ids.height;
     spec.instances = synthetic_instances();
-    const auto labels = make_labels(spec, ids);
+    auto labels = make_labels(spec, dataset_.categories, ids);
     ASSERT_TRUE(labels) << labels.error().message;
+    add_whole_silhouettes(*labels);
+    Image<std::uint8_t> image(ids.width, ids.height, 3);
+    std::mt19937_64 random(static_cast<std::uint64_t>(index));
+    for (std::uint8_t& value : image.values) value = static_cast<std::uint8_t>(random());
     const fs::path folder = frame_folder(index);
     ASSERT_TRUE(make_folders(folder));
-    Image<std::uint8_t> image(ids.width, ids.height, 3);
-    image.values[0] = static_cast<std::uint8_t>(index);
+    frames_.push_back({index, scene, folder, std::string(60, 'f') + std::to_string(1000 + index)});
+    truths_[index] = {ids, *labels};
     ASSERT_TRUE(write_quickly(folder / frame_files::kImage, encode_png(image)));
     ASSERT_TRUE(write_quickly(folder / frame_files::kInstances, encode_png(ids)));
     ASSERT_TRUE(write_quickly(folder / frame_files::kLabels, readable_json(to_json(*labels))));
-    dataset_.frames.push_back({index, scene, folder, "id-of-frame-" + std::to_string(index)});
-    truths_[index] = {ids, *labels};
+    write_manifest(frames_.back());
+  }
+
+  /// As if the files that are there had been written so.
+  static void write_manifest(const DatasetFrame& frame) {
+    Manifest manifest;
+    manifest.frame_id = frame.frame_id;
+    for (const char* name : {frame_files::kImage, frame_files::kInstances, frame_files::kLabels}) {
+      const auto bytes = read_file(frame.folder / name);
+      if (bytes) manifest.files[name] = {bytes->size(), sha256_hex(*bytes)};
+    }
+    ASSERT_TRUE(
+        write_quickly(frame.folder / frame_files::kManifest, readable_json(to_json(manifest))));
   }
 
   /// Ten frames of five scenes; an index is missing, as after a frame that failed. Frame 3 is
@@ -153,8 +182,28 @@ class SyntheticDataset {
   }
 
  private:
+  /// Every silhouette is the box of what is visible, and a column beyond it on the left, outside
+  /// the image for what touches its edge. Bolts have a visible head and a hidden tip.
+  static void add_whole_silhouettes(FrameLabels& labels) {
+    for (InstanceLabel& label : labels.instances) {
+      AmodalLabel& amodal = label.amodal.emplace();
+      if (label.area_px == 0) continue;
+      const PixelBox& box = label.box;
+      amodal.box = {box.x - 1, box.y, box.width + 1, box.height};
+      amodal.area_px = amodal.box.area();
+      amodal.in_image_px = box.x > 0 ? amodal.area_px : amodal.area_px - box.height;
+      amodal.rle = rle_string(
+          {amodal.box.height, amodal.box.width, {0, static_cast<std::uint32_t>(amodal.area_px)}});
+      amodal.pose.translation_m = {0.1, 0.2, -1.0};
+      if (label.category != 1) continue;
+      label.keypoints = {{"head", {box.x + 0.5, box.y + 0.25}, Visibility::kVisible},
+                         {"tip", {box.x + 0.75, box.y + 0.5}, Visibility::kHidden}};
+    }
+  }
+
   fs::path folder_;
   Dataset dataset_;
+  std::vector<DatasetFrame> frames_;
   std::map<std::int64_t, Truth> truths_;
 };
 
@@ -175,6 +224,16 @@ inline std::vector<InstanceLabel> exported_instances(const Truth& truth, int min
     if (label.category > 0 && label.area_px >= min_pixels) instances.push_back(label);
   }
   return instances;
+}
+
+/// Runs one format; its summary.
+inline Result<ExportSummary> export_one(const Dataset& dataset, const std::string& format,
+                                        const ExportOptions& options) {
+  const auto entry = find_export_format(format);
+  if (!entry) return forward_error(entry);
+  auto summaries = run_export(dataset, {*entry}, options);
+  if (!summaries) return forward_error(summaries);
+  return std::move(summaries->front());
 }
 
 }  // namespace seedframe

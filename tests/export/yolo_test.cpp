@@ -1,5 +1,7 @@
 #include "export/yolo.h"
 
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -39,7 +41,7 @@ IdImage two_instances() {
 
 TEST_F(ExportYolo, DetectionIsPinned) {
   campaign_.add_frame(41, 5, two_instances());
-  const auto summary = export_yolo(campaign_.dataset(), options(), YoloTask::kDetect);
+  const auto summary = export_one(campaign_.dataset(), "yolo-detect", options());
   ASSERT_TRUE(summary) << summary.error().message;
   EXPECT_EQ(*read_file(summary->folder / "labels/train/000041.txt"),
             "0 0.50000000 0.30000000 0.50000000 0.20000000\n"
@@ -57,7 +59,7 @@ TEST_F(ExportYolo, DetectionIsPinned) {
 
 TEST_F(ExportYolo, SegmentationIsPinned) {
   campaign_.add_frame(41, 5, two_instances());
-  const auto summary = export_yolo(campaign_.dataset(), options(), YoloTask::kSegment);
+  const auto summary = export_one(campaign_.dataset(), "yolo-segment", options());
   ASSERT_TRUE(summary) << summary.error().message;
   EXPECT_EQ(*read_file(summary->folder / "labels/train/000041.txt"),
             "0 0.25125000 0.20200000 0.74875000 0.20200000 0.74875000 0.39800000 0.25125000 "
@@ -69,9 +71,9 @@ TEST_F(ExportYolo, SegmentationIsPinned) {
 TEST_F(ExportYolo, DataYamlMeansTheSameToAYamlReader) {
   campaign_.add_ten_frames();
   ExportOptions split = options();
-  split.val_share = 0.4;
-  split.seed = 2;
-  const auto summary = export_yolo(campaign_.dataset(), split, YoloTask::kDetect);
+  split.splits = {{"train", 0.6}, {"val", 0.4}};
+  campaign_.dataset().seed = 2;
+  const auto summary = export_one(campaign_.dataset(), "yolo-detect", split);
   ASSERT_TRUE(summary) << summary.error().message;
   const YAML::Node yaml = YAML::LoadFile((summary->folder / "data.yaml").string());
   EXPECT_FALSE(yaml["path"]);
@@ -89,7 +91,7 @@ TEST_F(ExportYolo, DataYamlMeansTheSameToAYamlReader) {
     for (const auto& entry : fs::directory_iterator(summary->folder / images)) {
       const std::string stem = entry.path().stem().string();
       EXPECT_TRUE(fs::exists(summary->folder / "labels" / name / (stem + ".txt"))) << stem;
-      EXPECT_EQ(split_name(split_of_scene(std::stoi(stem) / 2, split)), name);
+      EXPECT_EQ(split_of_scene(std::stoi(stem) / 2, 2, split.splits) == 1, name == "val");
       ++found;
     }
     EXPECT_GT(found, 0);
@@ -98,10 +100,10 @@ TEST_F(ExportYolo, DataYamlMeansTheSameToAYamlReader) {
 
 TEST_F(ExportYolo, DetectionBoxesAreThoseOfThePixels) {
   campaign_.add_ten_frames();
-  const auto summary = export_yolo(campaign_.dataset(), options(), YoloTask::kDetect);
+  const auto summary = export_one(campaign_.dataset(), "yolo-detect", options());
   ASSERT_TRUE(summary) << summary.error().message;
   int compared = 0;
-  for (const DatasetFrame& frame : campaign_.dataset().frames) {
+  for (const DatasetFrame& frame : campaign_.frames()) {
     SCOPED_TRACE(frame.index);
     const auto expected = exported_instances(campaign_.truth(frame.index));
     const auto found = rows(*summary, frame.index);
@@ -121,12 +123,12 @@ TEST_F(ExportYolo, DetectionBoxesAreThoseOfThePixels) {
 /// Exports segments, decodes every row and compares it with the pixels.
 void expect_segments(const SyntheticDataset& campaign, const ExportOptions& options,
                      yolo_decoder::ToPixels to_pixels, double box_tolerance_px) {
-  const auto summary = export_yolo(campaign.dataset(), options, YoloTask::kSegment);
+  const auto summary = export_one(campaign.dataset(), "yolo-segment", options);
   ASSERT_TRUE(summary) << summary.error().message;
   int one_part = 0;
   int several_parts = 0;
   int with_holes = 0;
-  for (const DatasetFrame& frame : campaign.dataset().frames) {
+  for (const DatasetFrame& frame : campaign.frames()) {
     SCOPED_TRACE(frame.index);
     const Truth& truth = campaign.truth(frame.index);
     const auto expected = exported_instances(truth);
@@ -174,8 +176,8 @@ TEST_F(ExportYolo, CentreVerticesDecodeToTheMasksInLoadersThatRound) {
 
 TEST_F(ExportYolo, ABackgroundImageHasAnEmptyLabelFile) {
   campaign_.add_ten_frames();
-  for (const YoloTask task : {YoloTask::kDetect, YoloTask::kSegment}) {
-    const auto summary = export_yolo(campaign_.dataset(), options(), task);
+  for (const char* task : {"yolo-detect", "yolo-segment", "yolo-obb", "yolo-pose"}) {
+    const auto summary = export_one(campaign_.dataset(), task, options());
     ASSERT_TRUE(summary) << summary.error().message;
     const fs::path path = summary->folder / "labels/train/000003.txt";
     ASSERT_TRUE(fs::exists(path));
@@ -186,10 +188,10 @@ TEST_F(ExportYolo, ABackgroundImageHasAnEmptyLabelFile) {
 
 TEST_F(ExportYolo, CountsRowsThatLoadersMerge) {
   campaign_.add_ten_frames();
-  for (const YoloTask task : {YoloTask::kDetect, YoloTask::kSegment}) {
-    const auto summary = export_yolo(campaign_.dataset(), options(), task);
+  for (const char* task : {"yolo-detect", "yolo-segment", "yolo-obb", "yolo-pose"}) {
+    const auto summary = export_one(campaign_.dataset(), task, options());
     ASSERT_TRUE(summary) << summary.error().message;
-    EXPECT_EQ(summary->splits[0].duplicate_rows, 1);
+    EXPECT_EQ(at(summary->splits[0].counts, Count::kDuplicateRows), 1);
     ASSERT_EQ(summary->warnings.size(), 1U);
     EXPECT_THAT(summary->warnings[0], HasSubstr("train: 1 instances"));
     EXPECT_EQ(rows(*summary, 8).size(), 3U);  // both are written
@@ -200,7 +202,7 @@ TEST_F(ExportYolo, RefusesImagesThatLoadersRefuse) {
   IdImage ids(64, 9);
   ids.at(4, 4) = 3;
   campaign_.add_frame(6, 0, ids);
-  const auto summary = export_yolo(campaign_.dataset(), options(), YoloTask::kDetect);
+  const auto summary = export_one(campaign_.dataset(), "yolo-detect", options());
   ASSERT_FALSE(summary);
   EXPECT_EQ(summary.error().kind, ErrorKind::kInput);
   EXPECT_THAT(summary.error().message, HasSubstr("frame 6"));
@@ -210,8 +212,8 @@ TEST_F(ExportYolo, RefusesImagesThatLoadersRefuse) {
 TEST_F(ExportYolo, ValNamesTheTrainingImagesWhenNoSceneFallsIntoIt) {
   campaign_.add_frame(0, 0, two_instances());
   ExportOptions split = options();
-  split.val_share = 1e-9;
-  const auto summary = export_yolo(campaign_.dataset(), split, YoloTask::kDetect);
+  split.splits = {{"train", 1.0 - 1e-9}, {"val", 1e-9}};
+  const auto summary = export_one(campaign_.dataset(), "yolo-detect", split);
   ASSERT_TRUE(summary) << summary.error().message;
   const YAML::Node yaml = YAML::LoadFile((summary->folder / "data.yaml").string());
   EXPECT_EQ(yaml["val"].as<std::string>(), "images/train");

@@ -1,4 +1,4 @@
-#include "campaign/manifest.h"
+#include "base/manifest.h"
 
 #include "base/campaign_files.h"
 #include "base/files.h"

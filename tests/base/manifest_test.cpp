@@ -1,4 +1,4 @@
-#include "campaign/manifest.h"
+#include "base/manifest.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

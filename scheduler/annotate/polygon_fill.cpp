@@ -1,0 +1,77 @@
+#include "annotate/polygon_fill.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace seedframe {
+namespace {
+
+constexpr std::int32_t kHalfPixel = kVerticesPerPixel / 2;
+
+/// Where a polygon's edges cross the height of each row's centres, sorted.
+std::vector<std::vector<double>> crossings(const Polygon& polygon, const PixelBox& box) {
+  std::vector<std::vector<double>> rows(static_cast<std::size_t>(box.height));
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vertex& from = polygon[i];
+    const Vertex& to = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+    const auto [low, high] = std::minmax({from.y, to.y});
+    const int first = std::max((low + kHalfPixel - 1) / kVerticesPerPixel, box.y);
+    const int last = std::min(high / kVerticesPerPixel, box.y + box.height - 1);
+    for (int row = first; row <= last; ++row) {
+      const std::int32_t y = row * kVerticesPerPixel + kHalfPixel;
+      if (y < low || y >= high) continue;  // a vertex at this height counts once
+      const double share = static_cast<double>(y - from.y) / (to.y - from.y);
+      rows[static_cast<std::size_t>(row - box.y)].push_back(from.x + share * (to.x - from.x));
+    }
+  }
+  for (auto& row : rows) std::sort(row.begin(), row.end());
+  return rows;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> fill_polygons(const std::vector<Polygon>& polygons, const PixelBox& box) {
+  std::vector<std::uint8_t> covered(
+      static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height), 0);
+  for (const Polygon& polygon : polygons) {
+    const auto rows = crossings(polygon, box);
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      std::size_t next = 0;
+      for (int column = 0; column < box.width; ++column) {
+        const double centre = (box.x + column) * kVerticesPerPixel + kHalfPixel;
+        while (next < rows[row].size() && rows[row][next] < centre) ++next;
+        if (next % 2 == 1) {
+          covered[row * static_cast<std::size_t>(box.width) + static_cast<std::size_t>(column)] = 1;
+        }
+      }
+    }
+  }
+  return covered;
+}
+
+double polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask) {
+  const PixelBox& box = mask.box();
+  for (const Polygon& polygon : polygons) {
+    for (const Vertex& vertex : polygon) {
+      if (vertex.x < box.x * kVerticesPerPixel || vertex.y < box.y * kVerticesPerPixel ||
+          vertex.x > (box.x + box.width) * kVerticesPerPixel ||
+          vertex.y > (box.y + box.height) * kVerticesPerPixel) {
+        return 0.0;
+      }
+    }
+  }
+  const std::vector<std::uint8_t> covered = fill_polygons(polygons, box);
+  std::int64_t both = 0;
+  std::int64_t either = 0;
+  auto pixel = covered.begin();
+  for (int row = box.y; row < box.y + box.height; ++row) {
+    for (int column = box.x; column < box.x + box.width; ++column, ++pixel) {
+      const bool inside = mask.at(row, column);
+      both += inside && *pixel != 0;
+      either += inside || *pixel != 0;
+    }
+  }
+  return either == 0 ? 1.0 : static_cast<double>(both) / static_cast<double>(either);
+}
+
+}  // namespace seedframe

@@ -1,0 +1,62 @@
+#include "cli/campaign_dataset.h"
+
+#include <deque>
+
+namespace seedframe {
+namespace {
+
+/// Goes through the store a thousand rows at a time.
+class DoneFrames {
+ public:
+  explicit DoneFrames(const Campaign& campaign) : campaign_(&campaign) {}
+
+  Result<std::optional<DatasetFrame>> next() {
+    constexpr int kRows = 1000;
+    while (true) {
+      if (rows_.empty()) {
+        auto rows = campaign_->store.frames_from(first_, kRows);
+        if (!rows) return forward_error(rows);
+        if (rows->empty()) return std::nullopt;
+        first_ = rows->back().frame + 1;
+        rows_.assign(std::make_move_iterator(rows->begin()), std::make_move_iterator(rows->end()));
+      }
+      const FrameRow row = std::move(rows_.front());
+      rows_.pop_front();
+      if (row.state != FrameState::kDone) continue;
+      return DatasetFrame{row.frame, static_cast<int>(row.scene), campaign_->files.frame(row.frame),
+                          row.frame_id};
+    }
+  }
+
+ private:
+  const Campaign* campaign_;
+  std::int64_t first_ = 0;
+  std::deque<FrameRow> rows_;
+};
+
+}  // namespace
+
+Result<CampaignDataset> campaign_dataset(const Campaign& campaign,
+                                         const PreparedCampaign& prepared) {
+  const CampaignConfig& config = prepared.config;
+  CampaignDataset out;
+  Dataset& dataset = out.dataset;
+  dataset.name = config.name;
+  dataset.seed = config.seed;
+  dataset.categories = config.categories;
+  auto assets = prepared.expander.offered_assets();
+  if (!assets) return forward_error(assets);
+  dataset.assets = std::move(*assets);
+  dataset.keypoints = class_keypoints(dataset.assets, dataset.categories);
+  dataset.has_images = config.labels.source == LabelSource::kIndexPass;
+  dataset.has_depth = config.render.depth;
+  dataset.frames = [&campaign] {
+    return [frames = std::make_shared<DoneFrames>(campaign)] { return frames->next(); };
+  };
+  const auto counts = campaign.store.counts();
+  if (!counts) return forward_error(counts);
+  out.missing = counts->total() - counts->done;
+  return out;
+}
+
+}  // namespace seedframe

@@ -1,0 +1,22 @@
+// The models of a BOP dataset: object ids, PLY files in millimetres, models_info.json.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "export/export_folder.h"
+#include "scene/offered_assets.h"
+
+namespace seedframe {
+
+inline constexpr double kMillimetresPerMetre = 1000.0;
+
+/// 1, 2, … for the assets by name.
+std::map<std::string, int> bop_object_ids(const std::vector<OfferedAsset>& assets);
+
+/// Writes models/ and models.json.
+Status write_bop_models(const std::vector<OfferedAsset>& assets, ExportFolder& folder);
+
+}  // namespace seedframe

@@ -1,0 +1,74 @@
+#include "export/export_frame.h"
+
+#include <algorithm>
+
+#include "annotate/rle.h"
+#include "base/campaign_files.h"
+
+namespace seedframe {
+
+PlacedFile image_at(const std::filesystem::path& path, const ExportFrame& frame) {
+  return {path, frame.frame.folder / frame_files::kImage, frame.image_sha256};
+}
+
+Result<ExportInstance> whole_instance(const DatasetFrame& frame, const LoadedFrame& loaded,
+                                      const InstanceLabel& label) {
+  if (!loaded.labels.twin_exact || !label.amodal) {
+    return fail(ErrorKind::kInput,
+                "frame {}: its textures cut holes, of which silhouettes know nothing: export "
+                "without whole silhouettes (--amodal, bop)",
+                frame.index);
+  }
+  const PixelRect& rect = label.amodal->box;
+  const Image<std::uint16_t>& ids = loaded.instance_ids;
+  auto image = std::make_shared<Image<std::uint16_t>>(ids.width, ids.height);
+  const std::optional<Rle> rle = rle_from_string(label.amodal->rle, rect.width, rect.height);
+  PixelBox box{ids.width, ids.height, 0, 0};
+  int right = 0;
+  int bottom = 0;
+  std::int64_t area = 0;
+  for_each_stretch(*rle, [&](int stretch_column, int first, int end) {
+    const int column = rect.x + stretch_column;
+    const int top = std::max(rect.y + first, 0);
+    const int below = std::min(rect.y + end, ids.height);
+    if (column < 0 || column >= ids.width || top >= below) return;
+    for (int row = top; row < below; ++row) image->at(row, column) = 1;
+    area += below - top;
+    box = {std::min(box.x, column), std::min(box.y, top), 0, 0};
+    right = std::max(right, column + 1);
+    bottom = std::max(bottom, below);
+  });
+  box.width = right - box.x;
+  box.height = bottom - box.y;
+  const Mask mask(*image, 1, box);
+  return ExportInstance{&label, mask, area, std::move(image)};
+}
+
+Result<std::unique_ptr<ExportFrame>> select_instances(const DatasetFrame& frame, LoadedFrame loaded,
+                                                      std::string split,
+                                                      const ExportOptions& options) {
+  auto selected = std::make_unique<ExportFrame>();
+  selected->frame = frame;
+  selected->loaded = std::move(loaded);
+  selected->split = std::move(split);
+  selected->stem = frame_stem(frame.index);
+  for (const InstanceLabel& label : selected->loaded.labels.instances) {
+    if (label.category == 0 || label.area_px == 0) continue;
+    if (label.area_px < options.min_pixels) {
+      ++at(selected->counts, Count::kTooSmall);
+    } else if (label.amodal && label.visible_fraction() < options.min_visible) {
+      ++at(selected->counts, Count::kTooHidden);
+    } else if (options.amodal) {
+      auto whole = whole_instance(frame, selected->loaded, label);
+      if (!whole) return forward_error(whole);
+      selected->instances.push_back(std::move(*whole));
+    } else {
+      const Mask mask(selected->loaded.instance_ids, label.id, label.box);
+      selected->instances.push_back({&label, mask, label.area_px, nullptr});
+    }
+  }
+  at(selected->counts, Count::kAnnotations) = static_cast<std::int64_t>(selected->instances.size());
+  return selected;
+}
+
+}  // namespace seedframe

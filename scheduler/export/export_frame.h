@@ -1,0 +1,55 @@
+// A frame as a format sees it: loaded, with the instances that are exported.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "annotate/mask.h"
+#include "base/error.h"
+#include "export/dataset.h"
+#include "export/export_options.h"
+#include "export/frame_record.h"
+
+namespace seedframe {
+
+struct ExportInstance {
+  const InstanceLabel* label = nullptr;
+  Mask mask;                 ///< of the visible pixels, or of the silhouette inside the image
+  std::int64_t area_px = 0;  ///< of the mask
+  const PixelBox& box() const { return mask.box(); }
+
+  /// Holds the silhouette that the mask looks at; none: it looks at the frame's instance ids.
+  std::shared_ptr<const Image<std::uint16_t>> silhouette;
+};
+
+struct ExportFrame {
+  DatasetFrame frame;
+  LoadedFrame loaded;
+  std::string split;  ///< its name
+  std::string stem;   ///< "000042"
+  std::string image_sha256;
+  std::vector<ExportInstance> instances;
+  Counts counts;  ///< of what was exported and what was left out
+
+  ExportFrame() = default;
+  ExportFrame(ExportFrame&&) = delete;  // the instances look into it
+  ExportFrame& operator=(ExportFrame&&) = delete;
+};
+
+/// The frame's image, to be placed at a path of the export.
+PlacedFile image_at(const std::filesystem::path& path, const ExportFrame& frame);
+
+/// An instance by its whole silhouette inside the image. A kInput error names the frame if it has
+/// none that is exact.
+Result<ExportInstance> whole_instance(const DatasetFrame& frame, const LoadedFrame& loaded,
+                                      const InstanceLabel& label);
+
+/// The instances that the options let through, in the order of labels.json. kInput errors name a
+/// frame that has no exact silhouettes though they are asked for.
+Result<std::unique_ptr<ExportFrame>> select_instances(const DatasetFrame& frame, LoadedFrame loaded,
+                                                      std::string split,
+                                                      const ExportOptions& options);
+
+}  // namespace seedframe

@@ -1,0 +1,429 @@
+#include "export/export_run.h"
+
+#include <algorithm>
+#include <deque>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include "base/campaign_files.h"
+#include "base/files.h"
+#include "base/sha256.h"
+#include "export/document.h"
+#include "export/earlier_export.h"
+#include "export/export_index.h"
+#include "export/split.h"
+
+namespace seedframe {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kMostErrorsTold = 10;
+
+/// One format's export while it is written. `append` is called for each frame in order; the rest
+/// may be used from several threads.
+class FormatExport {
+ public:
+  FormatExport(const FormatEntry& entry, std::unique_ptr<ExportFormat> format, ExportFolder folder,
+               const ExportOptions& options)
+      : entry_(&entry),
+        format_(std::move(format)),
+        kinds_(format_->documents()),
+        folder_(std::move(folder)),
+        options_(&options) {
+    summary_.format = entry.name;
+    summary_.folder = folder_.destination();
+    for (const SplitShare& split : options.splits) {
+      summary_.splits.push_back({.split = split.name});
+    }
+  }
+
+  Status begin(const std::string& campaign) {
+    marker_ = {entry_->name, campaign, 0, *options_};
+    for (const fs::path& folder : format_->folders()) {
+      if (Status made = folder_.make_folder(folder); !made) return made;
+    }
+    for (const DocumentKind& kind : kinds_) {
+      if (kind.scope != DocumentKind::Scope::kSplit) continue;
+      for (const SplitShare& split : options_->splits) {
+        if (Status begun = document(kind, split.name, 0, 0); !begun) return begun;
+      }
+    }
+    index_.open(folder_.partial() / kIndexFile, std::ios::binary);
+    if (format_->reusable()) {
+      earlier_ = EarlierExport::open(folder_.destination(), marker_, kinds_);
+    }
+    return {};
+  }
+
+  const ExportFormat& format() const { return *format_; }
+
+  std::optional<EarlierExport::Part> earlier_part(std::int64_t frame) {
+    return earlier_ ? earlier_->take(frame) : std::nullopt;
+  }
+
+  /// Takes over what was written of the frame; false if it is not what it was.
+  bool reuse(const EarlierExport::Part& part, const FrameFiles& files, const fs::path& image,
+             FrameRecord& record) {
+    if (!part.whole || part.entry.key != files.key()) return false;
+    const std::string image_sha256 = files.sha256(frame_files::kImage);
+    for (const IndexEntry::File& file : part.entry.files) {
+      if (options_->link_images && file.hash == content_hash_of_sha256(image_sha256)) {
+        record.placed.push_back({file.path, image, image_sha256});
+        continue;
+      }
+      const fs::path source = earlier_->folder() / file.path;
+      const auto sha256 = sha256_of_file(source);
+      if (!sha256 || content_hash_of_sha256(*sha256) != file.hash) return false;
+      record.placed.push_back({file.path, source, *sha256});
+    }
+    record.chunks = part.chunks;
+    record.counts = part.entry.counts;
+    return true;
+  }
+
+  /// Writes the files of a frame, and leaves their names and hashes in `entry`.
+  Status write_files(const FrameRecord& record, bool reused, IndexEntry& entry) {
+    for (const FrameFile& file : record.files) {
+      if (Status written = folder_.write(file.path, file.bytes); !written) return written;
+      entry.files.push_back({file.path.string(), content_hash(file.bytes)});
+    }
+    for (const PlacedFile& file : record.placed) {
+      // What is taken over from an export that is about to be removed can stay where it is on the
+      // disk, unless it is also an image of the campaign.
+      std::error_code error;
+      const bool link = options_->link_images ||
+                        (reused && fs::hard_link_count(file.source, error) == 1 && !error);
+      if (Status placed = folder_.place(file.source, file.path, link); !placed) return placed;
+      entry.files.push_back({file.path.string(), content_hash_of_sha256(file.sha256)});
+    }
+    return {};
+  }
+
+  Status append(const DatasetFrame& frame, std::int64_t ordinal, const FrameRecord& record,
+                bool reused, IndexEntry entry) {
+    SplitSummary& split = summary_.splits[static_cast<std::size_t>(entry.split)];
+    const std::int64_t shard = ordinal / options_->shard_size;
+    for (const Chunk& chunk : record.chunks) {
+      const DocumentKind& kind = kinds_[static_cast<std::size_t>(chunk.document)];
+      if (Status open = document(kind, split.split, frame.scene, shard); !open) return open;
+      const std::string path = kind.path_of(split.split, frame.scene, shard);
+      documents_.at(path).writer.add(chunk.section, chunk.text);
+      entry.pieces.push_back({path, chunk.section, chunk.text.size(), content_hash(chunk.text)});
+    }
+    entry.counts = record.counts;
+    index_ << index_line(entry);
+    ++summary_.frames;
+    summary_.reused += reused;
+    ++split.images;
+    split.background_images += at(record.counts, Count::kAnnotations) == 0;
+    for (std::size_t i = 0; i < split.counts.size(); ++i) split.counts[i] += record.counts[i];
+    return {};
+  }
+
+  /// Everything but commit.
+  Status finish() {
+    for (auto& [path, document] : documents_) {
+      if (Status closed = document.writer.finish(); !closed) return closed;
+    }
+    index_.close();
+    if (!index_) {
+      return fail(ErrorKind::kEnvironment, "cannot write {}: is the disk full?",
+                  (folder_.partial() / kIndexFile).string());
+    }
+    marker_.frames = summary_.frames;
+    return format_->finish(folder_, summary_);
+  }
+
+  Status commit() { return folder_.commit(marker_text(marker_)); }
+  ExportSummary& summary() { return summary_; }
+
+ private:
+  struct OpenDocument {
+    const DocumentKind* kind = nullptr;
+    std::string split;
+    DocumentWriter writer;
+  };
+
+  /// Opens a document unless it is open, and closes those of the split's earlier scene or shard.
+  Status document(const DocumentKind& kind, const std::string& split, int scene,
+                  std::int64_t shard) {
+    const std::string path = kind.path_of(split, scene, shard);
+    if (documents_.count(path) > 0) return {};
+    for (auto each = documents_.begin(); each != documents_.end();) {
+      const bool over = each->second.kind == &kind && each->second.split == split;
+      if (!over) {
+        ++each;
+        continue;
+      }
+      if (Status closed = each->second.writer.finish(); !closed) return closed;
+      each = documents_.erase(each);
+    }
+    const fs::path relative = path;
+    if (Status made = folder_.make_folder(relative.parent_path()); !made) return made;
+    documents_.emplace(path, OpenDocument{&kind, split, {folder_.partial() / relative, kind}});
+    return {};
+  }
+
+  const FormatEntry* entry_;
+  std::unique_ptr<ExportFormat> format_;
+  std::vector<DocumentKind> kinds_;
+  ExportFolder folder_;
+  const ExportOptions* options_;
+  ExportMarker marker_;
+  std::optional<EarlierExport> earlier_;
+  std::map<std::string, OpenDocument> documents_;
+  std::ofstream index_;
+  ExportSummary summary_;
+};
+
+/// A frame on its way.
+struct FrameTask {
+  DatasetFrame frame;
+  int split = 0;
+  std::int64_t ordinal = 0;                                 ///< among the frames of its split
+  std::vector<std::optional<EarlierExport::Part>> earlier;  ///< by format
+  // After it was made:
+  Status status;
+  std::vector<FrameRecord> records;
+  std::vector<bool> reused;
+  std::vector<IndexEntry> entries;
+};
+
+class ExportRun {
+ public:
+  ExportRun(const Dataset& dataset, const ExportOptions& options, std::deque<FormatExport>& exports)
+      : dataset_(dataset), options_(options), exports_(exports), cursor_(dataset.frames()) {
+    ordinals_.resize(options.splits.size(), 0);
+    for (const FormatExport& each : exports) {
+      const FrameParts needs = each.format().needs();
+      parts_.image_file = parts_.image_file || needs.image_file;
+      parts_.image_pixels = parts_.image_pixels || needs.image_pixels;
+      parts_.depth = parts_.depth || needs.depth;
+    }
+  }
+
+  Status run() {
+    using TaskPointer = std::shared_ptr<FrameTask>;
+    const auto threads = static_cast<std::size_t>(options_.workers);
+    const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(options_.workers);
+    arena.execute([&] {
+      tbb::parallel_pipeline(
+          2 * threads,
+          tbb::make_filter<void, TaskPointer>(tbb::filter_mode::serial_in_order,
+                                              [this](tbb::flow_control& control) -> TaskPointer {
+                                                auto task = next();
+                                                if (!task) control.stop();
+                                                return task;
+                                              }) &
+              tbb::make_filter<TaskPointer, TaskPointer>(tbb::filter_mode::parallel,
+                                                         [this](TaskPointer task) {
+                                                           make(*task);
+                                                           return task;
+                                                         }) &
+              tbb::make_filter<TaskPointer, void>(
+                  tbb::filter_mode::serial_in_order,
+                  [this](const TaskPointer& task) { take(*task); }));
+    });
+    return verdict();
+  }
+
+ private:
+  /// The next frame; none at the end, or when nothing more can be made of it.
+  std::shared_ptr<FrameTask> next() {
+    if (hopeless_) return nullptr;
+    auto frame = cursor_();
+    if (!frame) {
+      add_error(frame.error());
+      return nullptr;
+    }
+    if (!*frame) return nullptr;
+    auto task = std::make_shared<FrameTask>();
+    task->frame = std::move(**frame);
+    if (task->frame.index <= last_index_) {
+      add_error({ErrorKind::kCorrupt, fmt::format("frame {} follows frame {}: each index must be "
+                                                  "larger",
+                                                  task->frame.index, last_index_)});
+      return nullptr;
+    }
+    last_index_ = task->frame.index;
+    task->split = split_of_scene(task->frame.scene, dataset_.seed, options_.splits);
+    task->ordinal = ordinals_[static_cast<std::size_t>(task->split)]++;
+    task->earlier.reserve(exports_.size());
+    for (FormatExport& each : exports_) {
+      task->earlier.push_back(each.earlier_part(task->frame.index));
+    }
+    return task;
+  }
+
+  void make(FrameTask& task) {
+    try {
+      task.status = make_records(task);
+    } catch (const std::bad_alloc&) {
+      task.status =
+          fail(ErrorKind::kEnvironment, "frame {}: there is not enough memory", task.frame.index);
+    }
+  }
+
+  Status make_records(FrameTask& task) {
+    const auto files = FrameFiles::open(dataset_, task.frame, parts_);
+    if (!files) return forward_error(files);
+    if (broken_) return {};  // only to find out what else is wrong
+    const std::size_t formats = exports_.size();
+    task.records.resize(formats);
+    task.reused.resize(formats, false);
+    task.entries.resize(formats);
+    std::unique_ptr<ExportFrame> selected;
+    for (std::size_t i = 0; i < formats; ++i) {
+      const auto& earlier = task.earlier[i];
+      task.reused[i] =
+          earlier && exports_[i].reuse(*earlier, *files, task.frame.folder / frame_files::kImage,
+                                       task.records[i]);
+      if (!task.reused[i]) {
+        if (!selected) {
+          auto loaded = load(*files, task);
+          if (!loaded) return forward_error(loaded);
+          selected = std::move(*loaded);
+        }
+        auto record = exports_[i].format().encode(*selected);
+        if (!record) return forward_error(record);
+        task.records[i] = std::move(*record);
+      }
+      IndexEntry& entry = task.entries[i];
+      entry.frame = task.frame.index;
+      entry.key = files->key();
+      entry.split = task.split;
+      const Status written = exports_[i].write_files(task.records[i], task.reused[i], entry);
+      if (!written) return written;
+    }
+    return {};
+  }
+
+  Result<std::unique_ptr<ExportFrame>> load(const FrameFiles& files, const FrameTask& task) const {
+    auto loaded = files.load();
+    if (!loaded) return forward_error(loaded);
+    auto selected =
+        select_instances(task.frame, std::move(*loaded),
+                         options_.splits[static_cast<std::size_t>(task.split)].name, options_);
+    if (selected) (*selected)->image_sha256 = files.sha256(frame_files::kImage);
+    return selected;
+  }
+
+  void take(FrameTask& task) {
+    if (!task.status) {
+      add_error(task.status.error());
+      return;
+    }
+    if (broken_) return;
+    for (std::size_t i = 0; i < exports_.size(); ++i) {
+      const Status appended = exports_[i].append(task.frame, task.ordinal, task.records[i],
+                                                 task.reused[i], std::move(task.entries[i]));
+      if (!appended) {
+        add_error(appended.error());
+        return;
+      }
+    }
+  }
+
+  /// What is wrong with a frame does not end the search for others; a full disk does.
+  void add_error(const Error& error) {
+    broken_ = true;
+    if (error.kind != ErrorKind::kCorrupt) hopeless_ = true;
+    if (++errors_ == 1) first_ = error;
+    if (errors_ > kMostErrorsTold || hopeless_) return;
+    told_ += (told_.empty() ? "" : "\n") + error.message;
+  }
+
+  Status verdict() {
+    if (errors_ == 0) {
+      if (last_index_ < 0) {
+        return fail(ErrorKind::kInput,
+                    "campaign '{}' has no complete frame to export: run 'seedframe resume' first",
+                    dataset_.name);
+      }
+      if (ordinals_.front() > 0) return {};
+      return fail(ErrorKind::kInput,
+                  "with these shares and seed {} no scene is left to train on: give train a larger "
+                  "share, or render more scenes",
+                  dataset_.seed);
+    }
+    if (hopeless_) return tl::unexpected(first_);
+    if (errors_ > kMostErrorsTold) {
+      told_ += fmt::format("\n… and {} more frames", errors_ - kMostErrorsTold);
+    }
+    return fail(ErrorKind::kCorrupt, "{}", told_);
+  }
+
+  const Dataset& dataset_;
+  const ExportOptions& options_;
+  std::deque<FormatExport>& exports_;
+  FrameCursor cursor_;
+  FrameParts parts_;
+  std::vector<std::int64_t> ordinals_;  ///< by split
+  std::int64_t last_index_ = -1;
+  std::atomic<bool> broken_ = false;
+  std::atomic<bool> hopeless_ = false;
+  std::int64_t errors_ = 0;
+  Error first_;
+  std::string told_;
+};
+
+Status check_categories(const Dataset& dataset) {
+  if (dataset.categories.empty()) {
+    return fail(ErrorKind::kInput, "campaign '{}' has no categories: there is nothing to annotate",
+                dataset.name);
+  }
+  for (const std::string& category : dataset.categories) {
+    try {
+      static_cast<void>(Json(category).dump());
+    } catch (const Json::exception&) {
+      return fail(ErrorKind::kInput, "a category's name is not valid UTF-8; rename it");
+    }
+  }
+  return {};
+}
+
+void add_warnings(const Dataset& dataset, ExportSummary& summary) {
+  if (!dataset.has_images) {
+    summary.warnings.emplace_back(
+        "the campaign has labels only (labels: geometry): no images were written");
+  }
+  for (const SplitSummary& split : summary.splits) {
+    if (split.images > 0) continue;
+    summary.warnings.push_back(
+        fmt::format("no scene fell into {} (seed {})", split.split, dataset.seed));
+  }
+}
+
+}  // namespace
+
+Result<std::vector<ExportSummary>> run_export(const Dataset& dataset,
+                                              const std::vector<const FormatEntry*>& formats,
+                                              const ExportOptions& options) {
+  if (Status possible = check_export_options(options); !possible) return forward_error(possible);
+  if (Status named = check_categories(dataset); !named) return forward_error(named);
+  std::deque<FormatExport> exports;  // they cannot move
+  for (const FormatEntry* entry : formats) {
+    auto format = entry->make(dataset, options);
+    if (!format) return forward_error(format);
+    auto folder = ExportFolder::create(options.output, entry->name);
+    if (!folder) return forward_error(folder);
+    exports.emplace_back(*entry, std::move(*format), std::move(*folder), options);
+    if (Status begun = exports.back().begin(dataset.name); !begun) return forward_error(begun);
+  }
+  if (Status ran = ExportRun(dataset, options, exports).run(); !ran) return forward_error(ran);
+  for (FormatExport& each : exports) {
+    if (Status finished = each.finish(); !finished) return forward_error(finished);
+  }
+  std::vector<ExportSummary> summaries;
+  for (FormatExport& each : exports) {
+    if (Status committed = each.commit(); !committed) return forward_error(committed);
+    add_warnings(dataset, each.summary());
+    summaries.push_back(std::move(each.summary()));
+  }
+  return summaries;
+}
+
+}  // namespace seedframe

@@ -1,0 +1,66 @@
+// The interface of an export format. What all formats have in common is in export_run.h.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "export/dataset.h"
+#include "export/document.h"
+#include "export/export_folder.h"
+#include "export/export_frame.h"
+#include "export/export_options.h"
+#include "export/frame_record.h"
+#include "export/written_frame.h"
+
+namespace seedframe {
+
+struct SplitSummary {
+  std::string split;
+  std::int64_t images = 0;
+  std::int64_t background_images = 0;  ///< images without an annotation
+  Counts counts{};
+};
+
+struct ExportSummary {
+  std::string format;
+  std::filesystem::path folder;
+  std::int64_t frames = 0;
+  std::int64_t reused = 0;  ///< frames taken over from the export that was there
+  std::vector<SplitSummary> splits;
+  std::vector<std::string> warnings;
+};
+
+/// One format for one dataset, made with its options. encode and differences may be called from
+/// several threads at once, for frames in any order.
+class ExportFormat {
+ public:
+  virtual ~ExportFormat() = default;
+
+  /// What encode reads beside the labels.
+  virtual FrameParts needs() const { return {}; }
+  virtual std::vector<DocumentKind> documents() const { return {}; }
+  /// Folders that are there even when nothing is in them.
+  virtual std::vector<std::filesystem::path> folders() const { return {}; }
+  /// Whether a frame's record says all there is about it; false: every frame is encoded each time.
+  virtual bool reusable() const { return true; }
+
+  /// Whether finish() writes a file of this path.
+  virtual bool is_common_file(const std::string& path) const = 0;
+
+  virtual Result<FrameRecord> encode(const ExportFrame& frame) const = 0;
+  /// Writes what belongs to no frame, after all are written.
+  virtual Status finish(ExportFolder& folder, ExportSummary& summary) const = 0;
+
+  /// Decodes what was written of a frame and compares it with the frame. Empty when all is equal.
+  /// Images that are placed as they are, and names, have been compared already.
+  virtual std::vector<std::string> differences(const ExportFrame& frame,
+                                               const WrittenFrame& written) const = 0;
+  /// The same for what belongs to no frame, after all frames were compared.
+  virtual std::vector<std::string> differences_at_end(const std::filesystem::path&) const {
+    return {};
+  }
+};
+
+}  // namespace seedframe

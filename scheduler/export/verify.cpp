@@ -1,0 +1,222 @@
+#include "export/verify.h"
+
+#include <algorithm>
+#include <set>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include "base/campaign_files.h"
+#include "base/files.h"
+#include "base/sha256.h"
+#include "export/earlier_export.h"
+#include "export/export_index.h"
+#include "export/export_run.h"
+#include "export/split.h"
+
+namespace seedframe {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostTold = 20;
+
+struct VerifyTask {
+  DatasetFrame frame;
+  std::optional<EarlierExport::Part> part;
+  Status status;
+  std::int64_t annotations = 0;
+  std::vector<std::string> differences;
+};
+
+class Verification {
+ public:
+  Verification(const Dataset& dataset, const fs::path& folder, const ExportMarker& marker,
+               const ExportFormat& format, EarlierExport written)
+      : dataset_(dataset),
+        folder_(folder),
+        marker_(marker),
+        format_(format),
+        documents_(format.documents()),
+        written_(std::move(written)),
+        cursor_(dataset.frames()) {
+    summary_.format = marker.format;
+  }
+
+  Result<VerifySummary> run(int workers) {
+    using TaskPointer = std::shared_ptr<VerifyTask>;
+    const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(workers));
+    tbb::task_arena arena(workers);
+    arena.execute([&] {
+      tbb::parallel_pipeline(
+          2 * static_cast<std::size_t>(workers),
+          tbb::make_filter<void, TaskPointer>(tbb::filter_mode::serial_in_order,
+                                              [this](tbb::flow_control& control) -> TaskPointer {
+                                                auto task = next();
+                                                if (!task) control.stop();
+                                                return task;
+                                              }) &
+              tbb::make_filter<TaskPointer, TaskPointer>(tbb::filter_mode::parallel,
+                                                         [this](TaskPointer task) {
+                                                           task->status = compare(*task);
+                                                           return task;
+                                                         }) &
+              tbb::make_filter<TaskPointer, void>(
+                  tbb::filter_mode::serial_in_order,
+                  [this](const TaskPointer& task) { take(*task); }));
+    });
+    if (!error_) return forward_error(error_);
+    finish();
+    return std::move(summary_);
+  }
+
+ private:
+  std::shared_ptr<VerifyTask> next() {
+    if (!error_) return nullptr;
+    auto frame = cursor_();
+    if (!frame) error_ = forward_error(frame);
+    if (!frame || !*frame) return nullptr;
+    auto task = std::make_shared<VerifyTask>();
+    task->frame = std::move(**frame);
+    task->part = written_.take(task->frame.index);
+    if (task->part) {
+      for (const IndexEntry::File& file : task->part->entry.files) {
+        listed_ += fs::exists(folder_ / file.path) ? 1 : 0;
+      }
+    }
+    return task;
+  }
+
+  Status compare(VerifyTask& task) const {
+    const auto files = FrameFiles::open(dataset_, task.frame, format_.needs());
+    if (!files) return forward_error(files);
+    auto loaded = files->load();
+    if (!loaded) return forward_error(loaded);
+    const ExportOptions& options = marker_.options;
+    const int split = split_of_scene(task.frame.scene, dataset_.seed, options.splits);
+    auto selected = select_instances(task.frame, std::move(*loaded),
+                                     options.splits[static_cast<std::size_t>(split)].name, options);
+    if (!selected) return forward_error(selected);
+    (*selected)->image_sha256 = files->sha256(frame_files::kImage);
+    if (!task.part) {
+      task.differences.emplace_back("is not in the export");
+      return {};
+    }
+    task.annotations = at(task.part->entry.counts, Count::kAnnotations);
+    if (!task.part->whole) {
+      task.differences.emplace_back("an entry of it is missing, or not as it was written");
+    }
+    const WrittenFrame written = read_files(task, **selected);
+    for (std::string& difference : format_.differences(**selected, written)) {
+      task.differences.push_back(std::move(difference));
+    }
+    return {};
+  }
+
+  /// The frame's own files. Those that have the image's hash are the image, placed as it is.
+  WrittenFrame read_files(VerifyTask& task, const ExportFrame& frame) const {
+    WrittenFrame written;
+    written.chunks = task.part->chunks;
+    const std::string image = content_hash_of_sha256(frame.image_sha256);
+    for (const IndexEntry::File& file : task.part->entry.files) {
+      auto bytes = read_file(folder_ / file.path);
+      if (!bytes) {
+        task.differences.push_back(bytes.error().message);
+        continue;
+      }
+      if (content_hash(*bytes) != file.hash) {
+        task.differences.push_back(file.path + " is not as it was written");
+      }
+      if (image.empty() || file.hash != image) written.files[file.path] = std::move(*bytes);
+    }
+    return written;
+  }
+
+  void take(const VerifyTask& task) {
+    if (!task.status) {
+      if (error_) error_ = task.status;
+      return;
+    }
+    ++summary_.frames;
+    summary_.annotations += task.annotations;
+    for (const std::string& difference : task.differences) {
+      add_difference(fmt::format("frame {}: {}", task.frame.index, difference));
+    }
+  }
+
+  void finish() {
+    while (const auto rest = written_.next()) {
+      add_difference(
+          fmt::format("frame {} is in the export, and not in the campaign", rest->entry.frame));
+    }
+    for (const std::string& name : written_.not_read_to_the_end()) {
+      add_difference(name + " holds entries that belong to no frame, or cannot be read");
+    }
+    for (const std::string& difference : format_.differences_at_end(folder_)) {
+      add_difference(difference);
+    }
+    count_files();
+  }
+
+  /// Files that no frame and no document accounts for.
+  void count_files() {
+    std::int64_t found = 0;
+    std::error_code error;
+    for (fs::recursive_directory_iterator entry(folder_, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (!entry->is_regular_file()) continue;
+      const std::string path = fs::relative(entry->path(), folder_).string();
+      const bool shared = path == kMarkerFile || path == kIndexFile || is_document(path) ||
+                          format_.is_common_file(path);
+      if (!shared) ++found;
+    }
+    if (found > listed_) {
+      add_difference(fmt::format("{} files belong to no frame", found - listed_));
+    }
+  }
+
+  bool is_document(const std::string& path) const {
+    for (const SplitShare& split : marker_.options.splits) {
+      for (const DocumentKind& kind : documents_) {
+        if (is_document_of(path, kind, split.name)) return true;
+      }
+    }
+    return false;
+  }
+
+  void add_difference(std::string text) {
+    ++summary_.differences;
+    if (summary_.first_differences.size() < kMostTold) {
+      summary_.first_differences.push_back(std::move(text));
+    }
+  }
+
+  const Dataset& dataset_;
+  const fs::path& folder_;
+  const ExportMarker& marker_;
+  const ExportFormat& format_;
+  std::vector<DocumentKind> documents_;
+  EarlierExport written_;
+  FrameCursor cursor_;
+  Status error_;  ///< of the source
+  std::int64_t listed_ = 0;
+  VerifySummary summary_;
+};
+
+}  // namespace
+
+Result<VerifySummary> verify_export(const Dataset& dataset, const fs::path& folder, int workers) {
+  const auto marker = read_marker(folder);
+  if (!marker) return forward_error(marker);
+  const auto entry = find_export_format(marker->format);
+  if (!entry) return forward_error(entry);
+  const auto format = (*entry)->make(dataset, marker->options);
+  if (!format) return forward_error(format);
+  auto written =
+      EarlierExport::open_for_reading(folder, marker->options.splits, (*format)->documents());
+  if (!written) return forward_error(written);
+  return Verification(dataset, folder, *marker, **format, std::move(*written)).run(workers);
+}
+
+}  // namespace seedframe
