@@ -4,6 +4,7 @@
 
 #include <cassert>
 #include <cstdint>
+#include <vector>
 
 #include "annotate/labels.h"
 #include "image/image.h"
@@ -27,7 +28,23 @@ class Mask {
 
   std::int64_t area_px() const;
 
+  /// Calls visit(column, row) wherever a pixel is of the mask and the one above it is not, or the
+  /// other way round, by columns and then rows; the row below a column's last pixel counts, even
+  /// below the image.
+  template <class Visit>
+  void for_each_change(Visit visit) const {
+    std::vector<Change> changes;
+    changes_by_column(changes);
+    for (const Change& change : changes) visit(change.column, change.row);
+  }
+
  private:
+  struct Change {
+    std::int32_t column = 0;
+    std::int32_t row = 0;
+  };
+  void changes_by_column(std::vector<Change>& changes) const;
+
   const Image<std::uint16_t>* ids_;
   std::uint16_t id_;
   PixelBox box_;

@@ -18,26 +18,25 @@ void append_number(std::string& out, std::int64_t value) {
 
 Rle encode_rle(const Mask& mask) {
   Rle rle{.height = mask.image_height(), .width = mask.image_width(), .counts = {}};
-  const PixelBox& box = mask.box();
-  const std::int64_t height = mask.image_height();
-  const std::int64_t pixels = height * mask.image_width();
-  bool inside = false;
+  const std::int64_t height = rle.height;
+  const std::int64_t pixels = height * rle.width;
   std::int64_t run_begin = 0;
-  const auto toggle_at = [&](std::int64_t position) {
+  std::int64_t pending = -1;  // a change that the next one may take back
+  const auto end_run = [&](std::int64_t position) {
     rle.counts.push_back(static_cast<std::uint32_t>(position - run_begin));
     run_begin = position;
-    inside = !inside;
   };
-  for (int column = box.x; column < box.x + box.width; ++column) {
-    for (int row = box.y; row < box.y + box.height; ++row) {
-      if (mask.at(row, column) != inside) toggle_at(column * height + row);
+  // A run that ends below a column's last row and goes on at the top of the next has no end there.
+  mask.for_each_change([&](int column, int row) {
+    const std::int64_t position = column * height + row;
+    if (pending == position) {
+      pending = -1;
+      return;
     }
-    // Background follows the box's last row, unless the box is as high as the image: then the run
-    // may go on in the next column. Nothing follows the image's last pixel.
-    const std::int64_t end = column * height + box.y + box.height;
-    if (inside && box.height < height && end < pixels) toggle_at(end);
-  }
-  if (inside && box.x + box.width < mask.image_width()) toggle_at((box.x + box.width) * height);
+    if (pending >= 0) end_run(pending);
+    pending = position;
+  });
+  if (pending >= 0 && pending < pixels) end_run(pending);
   rle.counts.push_back(static_cast<std::uint32_t>(pixels - run_begin));
   return rle;
 }

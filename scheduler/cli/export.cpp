@@ -72,13 +72,12 @@ Result<std::vector<SplitShare>> parse_splits(const std::string& text) {
   return splits;
 }
 
-Result<ExportOptions> options_of(const ExportArguments& arguments, const Campaign& campaign) {
+Result<ExportOptions> options_of(const ExportArguments& arguments) {
   ExportOptions options = arguments.options;
   auto splits = parse_splits(arguments.split);
   if (!splits) return forward_error(splits);
   options.splits = std::move(*splits);
-  options.output =
-      arguments.output.empty() ? campaign.files.exports() : std::filesystem::path(arguments.output);
+  options.output = arguments.output;
   options.link_images = arguments.link;
   options.polygon_detail =
       arguments.polygon == "simplified" ? PolygonDetail::kSimplified : PolygonDetail::kExact;
@@ -87,6 +86,7 @@ Result<ExportOptions> options_of(const ExportArguments& arguments, const Campaig
   if (options.workers == 0) {
     options.workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   }
+  if (Status possible = check_export_options(options); !possible) return forward_error(possible);
   return options;
 }
 
@@ -175,10 +175,11 @@ int export_campaign(const ExportArguments& arguments) {
   if (formats->empty() && !arguments.verify) {
     return report({ErrorKind::kInput, "--format says what to write, such as --format coco"});
   }
+  auto options = options_of(arguments);
+  if (!options) return report(options.error());
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
-  const auto options = options_of(arguments, *campaign);
-  if (!options) return report(options.error());
+  if (options->output.empty()) options->output = campaign->files.exports();
   Result<CampaignSource> source = source_of(*campaign, seedframe_home());
   if (!source) return report(source.error());
   const Result<PreparedCampaign> prepared = prepare(std::move(*source));

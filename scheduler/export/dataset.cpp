@@ -90,9 +90,9 @@ Status check_hash(const DatasetFrame& frame, const char* name, const Manifest& m
                   const std::string& sha256) {
   const auto file = manifest.files.find(name);
   if (file != manifest.files.end() && file->second.sha256 == sha256) return {};
-  return fail(ErrorKind::kCorrupt, "frame {}: {} is not as it was written{}; {}", frame.index,
-              (frame.folder / name).string(),
-              file == manifest.files.end() ? " (the manifest does not name it)" : "", kRemedy);
+  return fail(
+      ErrorKind::kCorrupt, "frame {}: {} {}; {}", frame.index, (frame.folder / name).string(),
+      file == manifest.files.end() ? "is not in the frame's manifest" : "has changed", kRemedy);
 }
 
 Result<std::string> read_checked(const DatasetFrame& frame, const char* name,

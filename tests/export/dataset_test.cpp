@@ -103,14 +103,14 @@ TEST_F(LoadFrame, NoticesAMaskThatWasChangedAfterwards) {
   ids.at(2, 3) = ids.at(2, 4) = 3;
   ids.at(7, 8) = 4;
   ASSERT_TRUE(write_file(file(frame_files::kInstances), encode_png(ids)));
-  expect_corrupt({"instances.png is not as it was written"});
+  expect_corrupt({"instances.png has changed"});
 }
 
 TEST_F(LoadFrame, NoticesAnImageThatWasChangedAfterwards) {
   std::string bytes = *read_file(file(frame_files::kImage));
   bytes[bytes.size() / 2] ^= 1;
   ASSERT_TRUE(write_file(file(frame_files::kImage), bytes));
-  expect_corrupt({"image.png is not as it was written"});
+  expect_corrupt({"image.png has changed"});
 }
 
 TEST_F(LoadFrame, TheKeyChangesWithAnyFileAndWithTheScene) {
