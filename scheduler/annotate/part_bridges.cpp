@@ -142,4 +142,81 @@ std::vector<PartBridge> bridge_parts(const Mask& mask, const Boundary& boundary,
   return bridges;
 }
 
+namespace {
+
+struct PartSize {
+  std::int64_t area_px = 0;
+  std::array<bool, 4> reaches{};  ///< the mask's box on its left, upper, right and lower side
+};
+
+std::vector<PartSize> part_sizes(const Boundary& boundary,
+                                 const std::vector<std::size_t>& part_of_ring, std::size_t parts) {
+  std::vector<PartSize> sizes(parts);
+  const PixelBox& box = boundary.box;
+  for (std::size_t i = 0; i < boundary.cracks.size(); ++i) {
+    const Crack& crack = boundary.cracks[i];
+    PartSize& size = sizes[part_of_ring[boundary.ring_of_crack[i]]];
+    // In each column, what is above lower sides less what is above upper sides.
+    if (crack.side == Side::kBottom) size.area_px += crack.row + 1;
+    if (crack.side == Side::kTop) size.area_px -= crack.row;
+    const std::array<bool, 4> reaches = {crack.column == box.x, crack.row == box.y,
+                                         crack.column == box.x + box.width - 1,
+                                         crack.row == box.y + box.height - 1};
+    for (std::size_t k = 0; k < reaches.size(); ++k) {
+      size.reaches[k] = size.reaches[k] || reaches[k];
+    }
+  }
+  return sizes;
+}
+
+}  // namespace
+
+WorthwhileParts worthwhile_parts(const Boundary& boundary,
+                                 const std::vector<std::size_t>& part_of_ring, std::size_t parts,
+                                 const std::vector<PartBridge>& bridges) {
+  WorthwhileParts out{std::vector<bool>(parts, true), 0};
+  if (parts < 2) return out;
+  const std::vector<PartSize> sizes = part_sizes(boundary, part_of_ring, parts);
+  std::array<std::int64_t, 4> reaching{};  // kept parts that hold the box on each side
+  for (const PartSize& size : sizes) {
+    for (std::size_t k = 0; k < reaching.size(); ++k) reaching[k] += size.reaches[k];
+  }
+  struct Neighbour {
+    std::size_t part;
+    std::int64_t painted_px;
+  };
+  std::vector<std::vector<Neighbour>> neighbours(parts);
+  for (const PartBridge& bridge : bridges) {
+    const Crack& from = boundary.cracks[bridge.from_crack];
+    const Crack& to = boundary.cracks[bridge.to_crack];
+    const std::int64_t painted =
+        std::max(std::abs(from.row - to.row), std::abs(from.column - to.column)) - 1;
+    const std::size_t a = part_of_ring[boundary.ring_of_crack[bridge.from_crack]];
+    const std::size_t b = part_of_ring[boundary.ring_of_crack[bridge.to_crack]];
+    neighbours[a].push_back({b, painted});
+    neighbours[b].push_back({a, painted});
+  }
+  std::vector<std::size_t> ends(parts);
+  std::iota(ends.begin(), ends.end(), std::size_t{0});
+  while (!ends.empty()) {
+    const std::size_t part = ends.back();
+    ends.pop_back();
+    if (!out.kept[part] || neighbours[part].size() != 1) continue;
+    const Neighbour neighbour = neighbours[part].front();
+    bool needed = sizes[part].area_px >= neighbour.painted_px;
+    for (std::size_t k = 0; k < reaching.size(); ++k) {
+      needed = needed || (sizes[part].reaches[k] && reaching[k] == 1);
+    }
+    if (needed) continue;
+    out.kept[part] = false;
+    out.left_out_px += sizes[part].area_px;
+    for (std::size_t k = 0; k < reaching.size(); ++k) reaching[k] -= sizes[part].reaches[k];
+    auto& others = neighbours[neighbour.part];
+    others.erase(std::find_if(others.begin(), others.end(),
+                              [&](const Neighbour& each) { return each.part == part; }));
+    ends.push_back(neighbour.part);
+  }
+  return out;
+}
+
 }  // namespace seedframe

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "annotate/boundary.h"
@@ -20,5 +21,16 @@ struct PartBridge {
 std::vector<PartBridge> bridge_parts(const Mask& mask, const Boundary& boundary,
                                      const std::vector<std::size_t>& part_of_ring,
                                      std::size_t parts);
+
+struct WorthwhileParts {
+  std::vector<bool> kept;  ///< by part; at least one
+  std::int64_t left_out_px = 0;
+};
+
+/// Takes parts off the ends of the tree while one has fewer pixels than there are background pixels
+/// under its bridge, and the box of the rest is still the mask's.
+WorthwhileParts worthwhile_parts(const Boundary& boundary,
+                                 const std::vector<std::size_t>& part_of_ring, std::size_t parts,
+                                 const std::vector<PartBridge>& bridges);
 
 }  // namespace seedframe

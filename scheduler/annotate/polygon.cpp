@@ -230,16 +230,27 @@ std::vector<Polygon> part_polygons(const Mask& mask, const VertexPlacement& plac
   return polygons;
 }
 
-Polygon whole_polygon(const Mask& mask, const VertexPlacement& placement) {
+WholePolygon whole_polygon(const Mask& mask, const VertexPlacement& placement) {
   const Boundary boundary = trace_boundary(mask);
   if (boundary.rings.empty()) return {};
   Walks walks(mask, boundary);
   const Parts parts = join_holes(mask, boundary, walks);
-  for (const PartBridge& bridge :
-       bridge_parts(mask, boundary, parts.part_of_ring, parts.outer_rings.size())) {
-    walks.join(bridge.from_crack, bridge.to_crack);
+  const std::vector<PartBridge> bridges =
+      bridge_parts(mask, boundary, parts.part_of_ring, parts.outer_rings.size());
+  const WorthwhileParts worthwhile =
+      worthwhile_parts(boundary, parts.part_of_ring, parts.outer_rings.size(), bridges);
+  const auto kept = [&](std::size_t crack) {
+    return worthwhile.kept[parts.part_of_ring[boundary.ring_of_crack[crack]]];
+  };
+  for (const PartBridge& bridge : bridges) {
+    if (kept(bridge.from_crack) && kept(bridge.to_crack)) {
+      walks.join(bridge.from_crack, bridge.to_crack);
+    }
   }
-  return walks.polygon(boundary.rings[parts.outer_rings.front()].first, placement);
+  const auto first = std::find(worthwhile.kept.begin(), worthwhile.kept.end(), true);
+  const std::size_t ring =
+      parts.outer_rings[static_cast<std::size_t>(first - worthwhile.kept.begin())];
+  return {walks.polygon(boundary.rings[ring].first, placement), worthwhile.left_out_px};
 }
 
 }  // namespace seedframe

@@ -52,9 +52,15 @@ std::vector<BoundaryRing> boundary_rings(const Mask& mask);
 /// the polygons is the mask. Ordered by the first pixel of the part in reading order.
 std::vector<Polygon> part_polygons(const Mask& mask, const VertexPlacement& placement);
 
+struct WholePolygon {
+  Polygon polygon;               ///< empty for an empty mask
+  std::int64_t left_out_px = 0;  ///< of the parts that are not in it
+};
+
 /// One polygon for the whole mask: parts are joined by bridges of no width too, the shortest there
 /// are. Those cross background, and a decoder that also fills the polygon's outline paints the
-/// pixels under them; nothing else can be said in one polygon. Empty for an empty mask.
-Polygon whole_polygon(const Mask& mask, const VertexPlacement& placement);
+/// pixels under them; nothing else can be said in one polygon. A part with fewer pixels than its
+/// bridge would paint is left out, unless the mask's box would be another without it.
+WholePolygon whole_polygon(const Mask& mask, const VertexPlacement& placement);
 
 }  // namespace seedframe

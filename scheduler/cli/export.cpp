@@ -100,6 +100,7 @@ void print_summary(const ExportSummary& summary) {
          {std::pair(Count::kTooSmall, "left out as too small"),
           std::pair(Count::kTooHidden, "left out as too hidden"),
           std::pair(Count::kDuplicateRows, "rows that loaders merge with another"),
+          std::pair(Count::kLeftOutParts, "without fragments smaller than a bridge to them"),
           std::pair(Count::kOtherBoxes, "whose smallest rectangle leaves the image")}) {
       if (count(which) > 0) fmt::print(", {} {}", count(which), text);
     }

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "annotate/coco_fill.h"
 #include "annotate/mask.h"
 #include "annotate/polygon.h"
-#include "annotate/polygon_fill.h"
 #include "annotate/polygon_simplify.h"
 #include "base/campaign_files.h"
 #include "export/coco_entry.h"
@@ -180,7 +180,7 @@ class CocoInstances : public ExportFormat {
     } else {
       const auto polygons = polygons_from_json(segmentation);
       if (!polygons) return "its polygons cannot be read";
-      const double iou = polygon_iou(*polygons, instance.mask);
+      const double iou = coco_polygon_iou(*polygons, instance.mask);
       const double least =
           options_.polygon_detail == PolygonDetail::kExact ? 1.0 : kLeastSimplifiedIou;
       if (iou < least) return fmt::format("its polygons have an IoU of {:.4f} with the mask", iou);

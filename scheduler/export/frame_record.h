@@ -15,6 +15,7 @@ enum class Count {
   kTooSmall,       ///< instances left out: fewer than min_pixels
   kTooHidden,      ///< instances left out: less than min_visible
   kDuplicateRows,  ///< YOLO: rows that loaders merge with another of their image
+  kLeftOutParts,   ///< YOLO: instances whose polygon is without some of their fragments
   kOtherBoxes,     ///< YOLO: instances whose smallest rectangle leaves the image
   kCount
 };

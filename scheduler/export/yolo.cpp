@@ -159,12 +159,15 @@ class Yolo : public ExportFormat {
       case Task::kDetect:
         append_box(row, instance.box(), labels);
         break;
-      case Task::kSegment:
-        for (const Vertex& vertex : polygon(instance)) {
+      case Task::kSegment: {
+        const WholePolygon whole = polygon(instance);
+        at(counts, Count::kLeftOutParts) += whole.left_out_px > 0;
+        for (const Vertex& vertex : whole.polygon) {
           append_coordinate(row, static_cast<double>(vertex.x) / kVerticesPerPixel, labels.width);
           append_coordinate(row, static_cast<double>(vertex.y) / kVerticesPerPixel, labels.height);
         }
         break;
+      }
       case Task::kObb: {
         const OrientedBox box = smallest_rectangle(instance.mask);
         at(counts, Count::kOtherBoxes) += !box.smallest;
@@ -184,7 +187,7 @@ class Yolo : public ExportFormat {
     return row;
   }
 
-  Polygon polygon(const ExportInstance& instance) const {
+  WholePolygon polygon(const ExportInstance& instance) const {
     return whole_polygon(instance.mask, options_.polygon_vertices == PolygonVertices::kEdges
                                             ? kInsidePixelEdges
                                             : kNearestToPixels);
@@ -287,10 +290,12 @@ class Yolo : public ExportFormat {
     }
     // Placed at 0.48 px, a polygon ends before the centres of its last pixels.
     if (options_.polygon_vertices == PolygonVertices::kCentres) {
-      return decoded == polygon(instance) ? "" : "its polygon is another";
+      return decoded == polygon(instance).polygon ? "" : "its polygon is another";
     }
     const double iou = polygon_iou({decoded}, instance.mask);
-    return iou == 1.0 ? "" : fmt::format("its polygon has an IoU of {:.4f} with the mask", iou);
+    const auto area = static_cast<double>(instance.area_px);
+    const double whole = (area - static_cast<double>(polygon(instance).left_out_px)) / area;
+    return iou == whole ? "" : fmt::format("its polygon has an IoU of {:.4f} with the mask", iou);
   }
 
   const Dataset& dataset_;

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "annotate/coco_fill.h"
 #include "annotate/extents.h"
 #include "annotate/polygon_simplify.h"
+#include "coco_decoder.h"
 #include "mask_cases.h"
 
 namespace seedframe {
@@ -41,12 +43,52 @@ std::size_t vertices(const std::vector<Polygon>& polygons) {
   return count;
 }
 
+/// By the tests' own decoder.
+double coco_iou(const std::vector<Polygon>& polygons, const IdImage& ids) {
+  std::vector<std::vector<double>> rings;
+  for (const Polygon& polygon : polygons) {
+    std::vector<double>& ring = rings.emplace_back();
+    for (const Vertex& vertex : polygon) {
+      ring.push_back(static_cast<double>(vertex.x) / kVerticesPerPixel);
+      ring.push_back(static_cast<double>(vertex.y) / kVerticesPerPixel);
+    }
+  }
+  const Bitmap found = coco_decoder::bitmap_of_polygons(rings, ids.height, ids.width);
+  return intersection_over_union(found, bitmap_of(ids, 1));
+}
+
+TEST(CocoFill, AgreesWithTheDecoderOfTheTests) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const IdImage ids = ring(60, 20.0 + static_cast<double>(seed % 8), 3.0);
+    const Mask mask = only_mask(ids);
+    std::vector<Polygon> polygons = part_polygons(mask, kOnPixelEdges);
+    EXPECT_EQ(coco_polygon_iou(polygons, mask), 1.0);
+    // Any vertices, also on half pixels, as simplified polygons have them.
+    std::mt19937_64 random(seed);
+    const PixelBox& box = mask.box();
+    for (Polygon& polygon : polygons) {
+      for (Vertex& vertex : polygon) {
+        const auto near = [&](std::int32_t value, int begin, int size) {
+          const int moved = value + 50 * (static_cast<int>(random() % 5) - 2);
+          return std::clamp(moved, begin * kVerticesPerPixel, (begin + size) * kVerticesPerPixel);
+        };
+        vertex = {near(vertex.x, box.x, box.width), near(vertex.y, box.y, box.height)};
+      }
+    }
+    EXPECT_NEAR(coco_polygon_iou(polygons, mask), coco_iou(polygons, ids), 1e-12) << seed;
+  }
+}
+
 TEST(PolygonFill, GivesTheMaskBackFromEveryPlacement) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const IdImage ids = noise(seed, 23, 17, static_cast<int>(1 + seed % 9));
     const Mask mask = only_mask(ids);
     EXPECT_EQ(polygon_iou(part_polygons(mask, kOnPixelEdges), mask), 1.0) << seed;
-    EXPECT_EQ(polygon_iou({whole_polygon(mask, kInsidePixelEdges)}, mask), 1.0) << seed;
+    const WholePolygon whole = whole_polygon(mask, kInsidePixelEdges);
+    const auto area = static_cast<double>(mask.area_px());
+    EXPECT_EQ(polygon_iou({whole.polygon}, mask),
+              (area - static_cast<double>(whole.left_out_px)) / area)
+        << seed;
   }
 }
 
@@ -71,7 +113,7 @@ TEST(PolygonSimplify, SavesVerticesOfLargeMasksAtTheStatedIou) {
     const auto exact = part_polygons(mask, kOnPixelEdges);
     const auto fewer = simplified_polygons(mask);
     EXPECT_LT(vertices(fewer), vertices(exact) / 5);
-    EXPECT_GE(polygon_iou(fewer, mask), kLeastSimplifiedIou);
+    EXPECT_GE(coco_iou(fewer, ids), kLeastSimplifiedIou);
   }
 }
 
@@ -79,7 +121,7 @@ TEST(PolygonSimplify, LeavesExactWhatCannotBeSimpler) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const IdImage ids = noise(seed, 15, 15, 5);
     const Mask mask = only_mask(ids);
-    EXPECT_GE(polygon_iou(simplified_polygons(mask), mask), kLeastSimplifiedIou);
+    EXPECT_GE(coco_iou(simplified_polygons(mask), ids), kLeastSimplifiedIou);
   }
   IdImage pixel(5, 5);
   pixel.at(2, 2) = 1;

@@ -165,21 +165,53 @@ TEST(PartPolygons, TheDecoderNoticesARingThatIsOffByOnePixel) {
 
 TEST(WholePolygon, IsEmptyForAnEmptyMask) {
   const MaskCase mask = mask_drawing("", {"..", ".."});
-  EXPECT_TRUE(whole_polygon(mask_of(mask.ids), kInsidePixelEdges).empty());
+  EXPECT_TRUE(whole_polygon(mask_of(mask.ids), kInsidePixelEdges).polygon.empty());
 }
 
 TEST(WholePolygon, StandsTwoHundredthsInsideThePixelEdges) {
   const MaskCase mask = mask_drawing("", {"...", ".#.", "..."});
-  EXPECT_EQ(whole_polygon(mask_of(mask.ids), kInsidePixelEdges),
+  EXPECT_EQ(whole_polygon(mask_of(mask.ids), kInsidePixelEdges).polygon,
             (Polygon{{102, 102}, {198, 102}, {198, 198}, {102, 198}}));
 }
 
 TEST(WholePolygon, JoinsPartsByTheShortestBridge) {
   const MaskCase mask = mask_drawing("", {"#....", ".....", "..###", "....."});
-  const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges);
+  const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges).polygon;
   const Bitmap found = yolo_decoder::bitmap_of_row(yolo_row(polygon, 5, 4), 5, 4);
   const MaskCase bridged = mask_drawing("", {"#....", ".#...", "..###", "....."});
   EXPECT_EQ(found.values, bitmap_of(bridged.ids).values);
+}
+
+TEST(WholePolygon, LeavesOutAFragmentThatIsSmallerThanItsBridge) {
+  const MaskCase mask = mask_drawing("", {"###......#",  //
+                                          "###......#",  //
+                                          "#####....#",  //
+                                          "..........",  //
+                                          "......##..",  //
+                                          "..........",  //
+                                          "##########"});
+  const WholePolygon whole = whole_polygon(mask_of(mask.ids), kInsidePixelEdges);
+  EXPECT_EQ(whole.left_out_px, 0) << "a bridge of one pixel is worth two";
+  const MaskCase far = mask_drawing("", {"###..........",  //
+                                         "###..........",  //
+                                         "###.......#..",  //
+                                         "#............",  //
+                                         "#............",  //
+                                         "#............",  //
+                                         "#............",  //
+                                         "#############"});
+  const WholePolygon left = whole_polygon(mask_of(far.ids), kInsidePixelEdges);
+  EXPECT_EQ(left.left_out_px, 1) << "a bridge of four pixels is not";
+  const Bitmap found = yolo_decoder::bitmap_of_row(yolo_row(left.polygon, 13, 8), 13, 8);
+  const Difference wrong = difference(found, bitmap_of(far.ids));
+  EXPECT_EQ(wrong.lost, 1);
+  EXPECT_EQ(wrong.added, 0);
+}
+
+TEST(WholePolygon, KeepsAFragmentThatHoldsTheBox) {
+  const MaskCase mask = mask_drawing("", {"###.......#",  //
+                                          "###........"});
+  EXPECT_EQ(whole_polygon(mask_of(mask.ids), kInsidePixelEdges).left_out_px, 0);
 }
 
 struct Decoded {
@@ -188,8 +220,9 @@ struct Decoded {
   int with_holes = 0;
 };
 
-/// Every mask through YOLO's arithmetic: exact where there is one part, with holes or without; no
-/// pixel of a mask is ever lost, and none added but under the shortest bridges there are.
+/// Every mask through YOLO's arithmetic: exact where there is one part, with holes or without; else
+/// no more pixels are wrong, lost fragments and painted bridges together, than there are under the
+/// shortest bridges.
 Decoded decode_all(const VertexPlacement& placement, yolo_decoder::ToPixels to_pixels) {
   Decoded decoded;
   for (const MaskCase& mask : mask_cases()) {
@@ -199,13 +232,12 @@ Decoded decode_all(const VertexPlacement& placement, yolo_decoder::ToPixels to_p
     if (parts == 0) continue;
     const int width = mask.ids.width;
     const int height = mask.ids.height;
-    const Polygon polygon = whole_polygon(mask_of(mask.ids), placement);
+    const Polygon polygon = whole_polygon(mask_of(mask.ids), placement).polygon;
     EXPECT_GE(polygon.size(), 3U);
     const yolo_decoder::Row row = yolo_row(polygon, width, height);
     const Bitmap found = yolo_decoder::bitmap_of_row(row, width, height, to_pixels);
     const Difference wrong = difference(found, truth);
-    EXPECT_EQ(wrong.lost, 0);
-    EXPECT_LE(wrong.added, parts == 1 ? 0 : shortest_bridges(truth));
+    EXPECT_LE(wrong.lost + wrong.added, parts == 1 ? 0 : shortest_bridges(truth));
     ++(parts == 1 ? decoded.one_part : decoded.several_parts);
     decoded.with_holes += count_holes(truth) > 0;
   }
@@ -240,7 +272,7 @@ TEST(WholePolygon, ResamplingChangesNothingButWhereOnlyCornersTouch) {
     const Bitmap truth = bitmap_of(mask.ids);
     if (count_parts(truth) != 1) continue;
     SCOPED_TRACE(mask.name);
-    const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges);
+    const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges).polygon;
     const auto row = yolo_row(polygon, mask.ids.width, mask.ids.height);
     const Bitmap found =
         yolo_decoder::bitmap_of_row(resampled(row, 1000), mask.ids.width, mask.ids.height);
@@ -265,7 +297,7 @@ TEST(WholePolygon, BoxIsWithinTwoHundredthsOfAPixel) {
   int checked = 0;
   for (const MaskCase& mask : mask_cases()) {
     const Mask view = mask_of(mask.ids);
-    const Polygon polygon = whole_polygon(view, kInsidePixelEdges);
+    const Polygon polygon = whole_polygon(view, kInsidePixelEdges).polygon;
     if (polygon.empty()) continue;
     SCOPED_TRACE(mask.name);
     const auto row = yolo_row(polygon, mask.ids.width, mask.ids.height);
@@ -286,7 +318,7 @@ TEST(WholePolygon, SeveralPartsDecodeWellAtRealisticSizes) {
     const Bitmap truth = bitmap_of(mask.ids);
     if (count_parts(truth) < 2) continue;
     SCOPED_TRACE(mask.name);
-    const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges);
+    const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges).polygon;
     const Bitmap found = yolo_decoder::bitmap_of_row(yolo_row(polygon, 320, 240), 320, 240);
     const double iou = intersection_over_union(found, truth);
     EXPECT_GE(iou, 0.97);

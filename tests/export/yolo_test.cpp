@@ -150,8 +150,7 @@ void expect_segments(const SyntheticDataset& campaign, const ExportOptions& opti
       const Bitmap mask = bitmap_of(truth.ids, expected[i].id);
       const Bitmap decoded = yolo_decoder::bitmap_of_row(found[i], 160, 120, to_pixels);
       const Difference wrong = difference(decoded, mask);
-      EXPECT_EQ(wrong.lost, 0);
-      EXPECT_LE(wrong.added, shortest_bridges(mask));  // 0 for one part
+      EXPECT_LE(wrong.lost + wrong.added, shortest_bridges(mask));  // 0 for one part
       ++(count_parts(mask) == 1 ? one_part : several_parts);
       with_holes += count_holes(mask) > 0;
     }

@@ -93,9 +93,9 @@ lights:
 )");
   ASSERT_TRUE(expander) << expander.error().message;
   EXPECT_EQ(expander->expand(0)->id,
-            "95a2672dc4a6d9b42cda194e44eafa172fba3c68f9af3093b25a1ea2d81094d5");
+            "11c8f02c60e380b1c5592d0af8ae4cafdcd29c3e72fef9b0d420a75ea35c320a");
   EXPECT_EQ(expander->expand(5)->id,
-            "735ca29f22abc24d601876d5bdecc3d915b311827aabd708ddb0e917a6d6b658");
+            "5ff1ac9dcd3c49db6dd22bfd0a297b3f584c064c84e5e6d0ce70c6ba058ddaa2");
 }
 
 TEST(SceneExpander, FirstDrawsAreWhatTheyHaveAlwaysBeen) {
@@ -223,9 +223,9 @@ TEST(SceneExpander, FrameSpecsSurviveTheirJson) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(frame_id(*read), frame->id);
   Json newer = to_json(frame->spec);
-  newer["version"] = 4;
+  newer["version"] = 5;
   EXPECT_THAT(frame_spec_from_json(newer, "frame.json").error().message,
-              HasSubstr("frame.json is a frame spec of version 4"));
+              HasSubstr("frame.json is a frame spec of version 5"));
   Json damaged = to_json(frame->spec);
   damaged.erase("camera");
   EXPECT_FALSE(frame_spec_from_json(damaged, "frame.json"));
