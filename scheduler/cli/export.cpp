@@ -140,6 +140,7 @@ Result<std::vector<const FormatEntry*>> find_formats(const std::vector<std::stri
 Result<std::vector<std::filesystem::path>> folders_to_verify(
     const std::vector<const FormatEntry*>& named, const std::filesystem::path& output) {
   std::vector<std::filesystem::path> folders;
+  folders.reserve(export_formats().size());
   for (const FormatEntry* format : named) folders.push_back(output / format->name);
   if (!folders.empty()) return folders;
   for (const FormatEntry& format : export_formats()) {

@@ -72,7 +72,7 @@ Status write_bop_models(const std::vector<OfferedAsset>& assets, ExportFolder& f
     infos[std::to_string(id)] = info_of(asset.mesh);
     names[std::to_string(id)] = {{"asset", asset.name}, {"category", asset.category}};
   }
-  const Status written = folder.write("models/models_info.json", readable_json(infos));
+  Status written = folder.write("models/models_info.json", readable_json(infos));
   if (!written) return written;
   return folder.write("models.json", readable_json(names));
 }

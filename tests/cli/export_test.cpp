@@ -62,15 +62,18 @@ class ExportTest : public ProgramTest {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-  /// Its output holds what it says of each format.
-  Outcome decoders(const std::string& output, const std::string& more = {}) const {
-    const std::string log = (folder_ / "decoders.txt").string();
-    const std::string command = std::string("/usr/bin/python3 ") + SEEDFRAME_HOME +
-                                "/tests/export/decoders/agreement.py " + (folder_ / "c").string() +
-                                " " + (folder_ / output).string() + " " + more + " >" + log +
-                                " 2>&1";
-    const int status = std::system(command.c_str());
+  /// Of a script in tests/export, which says everything in its output.
+  Outcome python(const std::string& script_and_arguments) const {
+    const std::string log = (folder_ / "python.txt").string();
+    const int status =
+        std::system((std::string("PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 ") + SEEDFRAME_HOME +
+                     "/tests/export/" + script_and_arguments + " >" + log + " 2>&1")
+                        .c_str());
     return {WEXITSTATUS(status), *read_file(log), {}};
+  }
+  Outcome decoders(const std::string& output, const std::string& more = {}) const {
+    return python("decoders/agreement.py " + (folder_ / "c").string() + " " +
+                  (folder_ / output).string() + " " + more);
   }
 };
 
@@ -80,6 +83,22 @@ TEST_F(ExportTest, IndependentDecodersFindWhatWasTraced) {
   const Outcome found = decoders("out");
   EXPECT_EQ(found.exit_code, 0) << found.output << found.errors;
   for (const std::string& format : kFormats) EXPECT_THAT(found.output, HasSubstr(format + ": "));
+}
+
+TEST_F(ExportTest, ThePagesTellHowToLoadIt) {
+  ASSERT_EQ(run(export_all("out")).exit_code, 0);
+  const Outcome read = python("run_pages.py " + (folder_ / "out").string());
+  EXPECT_EQ(read.exit_code, 0) << read.output;
+  for (const char* page : {"coco.md", "yolo.md", "voc.md", "bop.md", "webdataset.md"}) {
+    EXPECT_THAT(read.output, HasSubstr(page));
+  }
+}
+
+TEST(ExportDecoders, KnowTheirFormats) {
+  const std::string folder = std::string(SEEDFRAME_HOME) + "/tests/export/decoders";
+  const std::string command =
+      "cd " + folder + " && PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -m unittest -q";
+  EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
 TEST_F(ExportTest, IndependentDecodersAgreeWithTheFilters) {

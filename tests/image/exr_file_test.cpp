@@ -80,5 +80,25 @@ TEST(ExrFile, AFullDiskIsAnErrorEvenForTheLastBytes) {
   EXPECT_EQ(written.error().kind, ErrorKind::kEnvironment);
 }
 
+TEST(ExrFile, AChannelComesBack) {
+  const TestFolder folder;
+  Image<float> depth(7, 5);
+  for (std::size_t i = 0; i < depth.values.size(); ++i)
+    depth.values[i] = 0.1F * static_cast<float>(i);
+  depth.values[3] = 1e10F;
+  ASSERT_TRUE(write_exr(folder / "depth.exr", depth, {"Z"}));
+  const auto read = read_exr_channel(folder / "depth.exr", "Z");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->width, 7);
+  EXPECT_EQ(read->values, depth.values);
+  EXPECT_EQ(read_exr_channel(folder / "depth.exr", "A").error().kind, ErrorKind::kCorrupt);
+  EXPECT_EQ(read_exr_channel(folder / "none.exr", "Z").error().kind, ErrorKind::kCorrupt);
+  const std::string bytes = *read_file(folder / "depth.exr");
+  for (std::size_t length = 0; length < bytes.size(); length += 7) {
+    ASSERT_TRUE(write_file(folder / "cut.exr", bytes.substr(0, length)));
+    EXPECT_FALSE(read_exr_channel(folder / "cut.exr", "Z")) << length;
+  }
+}
+
 }  // namespace
 }  // namespace seedframe

@@ -152,5 +152,36 @@ TEST(PngFile, ASizeThatTheFileCannotHoldIsRefusedBeforeItGetsMemory) {
   EXPECT_THAT(image.error().message, HasSubstr("too short for the size that it states"));
 }
 
+TEST(PngFile, APaletteComesBackWithItsIndices) {
+  Image<std::uint8_t> image(9, 4);
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    image.values[i] = static_cast<std::uint8_t>(i % 3);
+  }
+  const Palette colors = {{0, 0, 0}, {128, 0, 0}, {0, 128, 255}};
+  const std::string bytes = encode_palette_png(image, colors);
+  Palette found;
+  const auto read = decode_palette_png(bytes, "p.png", found);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->values, image.values);
+  EXPECT_EQ(found, colors);
+  EXPECT_FALSE(decode_png8(bytes, "p.png")) << "a palette is not grey";
+  EXPECT_THAT(decode_palette_png(encode_png(image), "grey.png", found).error().message,
+              HasSubstr("grey.png: expected a palette"));
+  EXPECT_FALSE(decode_palette_png(bytes.substr(0, bytes.size() / 2), "p.png", found));
+}
+
+TEST(PngFile, LabelsInColourAreTheSamePixelsInFewerBytes) {
+  Image<std::uint8_t> image(64, 64, 3);
+  for (int row = 16; row < 48; ++row) {
+    for (int column = 8; column < 40; ++column) image.at(row, column, 1) = 7;
+  }
+  const std::string labels = encode_png(image, PngContent::kLabels);
+  EXPECT_LT(labels.size(), encode_png(image).size());
+  EXPECT_EQ(labels.find("sRGB"), std::string::npos);
+  const auto read = decode_png8(labels, "l.png");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->values, image.values);
+}
+
 }  // namespace
 }  // namespace seedframe

@@ -108,11 +108,14 @@ def compare_all(
     for name in names:
         try:
             datasets[name] = load(folder / name, campaign)
-        except (ValueError, KeyError, IndexError, TypeError, OSError, StopIteration) as error:
+        except Exception as error:  # whatever a parser throws at what it does not know
             reports[name].check(False, f"unreadable: {type(error).__name__}: {error}")
     for name, dataset in datasets.items():
         reports[name].differences += dataset.problems
-        check(name, datasets, campaign, reports[name], options)
+        try:
+            check(name, datasets, campaign, reports[name], options)
+        except Exception as error:
+            reports[name].check(False, f"cannot be checked: {type(error).__name__}: {error}")
     scenes = {}
     for dataset in datasets.values():
         for stem, scene in dataset.scenes.items():
