@@ -295,7 +295,7 @@ class ExportRun {
       entry.frame = task.frame.index;
       entry.key = files->key();
       entry.split = task.split;
-      const Status written = exports_[i].write_files(task.records[i], task.reused[i], entry);
+      Status written = exports_[i].write_files(task.records[i], task.reused[i], entry);
       if (!written) return written;
     }
     return {};

@@ -75,7 +75,7 @@ class Patches : public ExportFormat {
 
   Image<std::uint8_t> patch(const ExportFrame& frame, const ExportInstance& instance) const {
     const PixelBox& box = instance.box();
-    const Image<std::uint8_t> rectangle =
+    Image<std::uint8_t> rectangle =
         cropped(*frame.loaded.image, box.x, box.y, box.width, box.height);
     if (options_.patch_size == 0) return rectangle;
     return resized(rectangle, options_.patch_size, options_.patch_size);

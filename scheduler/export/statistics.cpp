@@ -89,8 +89,7 @@ Json bins_json() {
 
 class Statistics : public ExportFormat {
  public:
-  Statistics(const Dataset& dataset, const ExportOptions& options)
-      : dataset_(dataset), options_(options) {
+  Statistics(const Dataset& dataset, const ExportOptions& options) : dataset_(dataset) {
     const std::size_t classes = dataset.categories.size();
     for (const SplitShare& split : options.splits) {
       SplitNumbers& numbers = splits_[split.name];
@@ -172,7 +171,6 @@ class Statistics : public ExportFormat {
   }
 
   const Dataset& dataset_;
-  const ExportOptions& options_;
   mutable std::mutex mutex_;
   mutable std::map<std::string, SplitNumbers> splits_;  ///< guarded by the mutex
 };

@@ -14,10 +14,10 @@ namespace seedframe {
 namespace {
 
 constexpr std::size_t kMostIndices = 254;  // 255 is "void", 0 background
-const std::string kRoot = "VOCdevkit/VOC2012/";
+std::string in_root(const std::string& path) { return "VOCdevkit/VOC2012/" + path; }
 
 std::string xml_path(const ExportFrame& frame) {
-  return kRoot + "Annotations/" + frame.stem + ".xml";
+  return in_root("Annotations/" + frame.stem + ".xml");
 }
 
 Palette palette() {
@@ -86,18 +86,15 @@ std::string xml_text(const Dataset& dataset, const ExportFrame& frame) {
 
 class Voc : public ExportFormat {
  public:
-  Voc(const Dataset& dataset, const ExportOptions& options)
-      : dataset_(dataset),
-        options_(options),
-        folders_(class_folders(dataset.categories)),
-        palette_(palette()) {}
+  explicit Voc(const Dataset& dataset)
+      : dataset_(dataset), folders_(class_folders(dataset.categories)), palette_(palette()) {}
 
   FrameParts needs() const override { return {.image_file = dataset_.has_images}; }
 
   std::vector<DocumentKind> documents() const override {
     std::vector<DocumentKind> lists;
     const auto list = [&](const std::string& name) {
-      lists.push_back({.path = kRoot + "ImageSets/" + name,
+      lists.push_back({.path = in_root("ImageSets/" + name),
                        .scope = DocumentKind::Scope::kSplit,
                        .header = {},
                        .breaks = {},
@@ -111,7 +108,7 @@ class Voc : public ExportFormat {
   }
 
   bool is_common_file(const std::string& path) const override {
-    return path == kRoot + "labelmap.txt";
+    return path == in_root("labelmap.txt");
   }
 
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
@@ -129,7 +126,7 @@ class Voc : public ExportFormat {
           {png_path(frame, objects), encode_palette_png(indices(frame, objects), palette_)});
     }
     if (dataset_.has_images) {
-      record.placed.push_back(image_at(kRoot + "JPEGImages/" + frame.stem + ".jpg", frame));
+      record.placed.push_back(image_at(in_root("JPEGImages/" + frame.stem + ".jpg"), frame));
     }
     record.chunks = lists(frame);
     return record;
@@ -141,7 +138,7 @@ class Voc : public ExportFormat {
       const auto [red, green, blue] = voc_color(k + 1);
       map += fmt::format("{}:{},{},{}::\n", dataset_.categories[k], red, green, blue);
     }
-    return folder.write(kRoot + "labelmap.txt", map);
+    return folder.write(in_root("labelmap.txt"), map);
   }
 
   std::vector<std::string> differences(const ExportFrame& frame,
@@ -168,7 +165,7 @@ class Voc : public ExportFormat {
 
  private:
   static std::string png_path(const ExportFrame& frame, bool objects) {
-    return kRoot + (objects ? "SegmentationObject/" : "SegmentationClass/") + frame.stem + ".png";
+    return in_root((objects ? "SegmentationObject/" : "SegmentationClass/") + frame.stem + ".png");
   }
 
   Image<std::uint8_t> indices(const ExportFrame& frame, bool objects) const {
@@ -229,7 +226,6 @@ class Voc : public ExportFormat {
   }
 
   const Dataset& dataset_;
-  const ExportOptions& options_;
   std::vector<std::string> folders_;
   Palette palette_;
 };
@@ -247,7 +243,7 @@ Result<std::unique_ptr<ExportFormat>> make_voc(const Dataset& dataset,
     return fail(ErrorKind::kInput, "VOC's palette has room for {} classes, the campaign has {}",
                 kMostIndices, dataset.categories.size());
   }
-  return std::make_unique<Voc>(dataset, options);
+  return std::make_unique<Voc>(dataset);
 }
 
 }  // namespace seedframe

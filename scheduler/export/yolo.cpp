@@ -233,7 +233,7 @@ class Yolo : public ExportFormat {
     if (task_ != Task::kPose) return yaml;
     yaml += fmt::format("kpt_shape: [{}, 3]\n", points_);
     const std::vector<int> flipped = flip_indices();
-    if (!flipped.empty()) yaml += fmt::format("flip_idx: [{}]\n", fmt::join(flipped, ", "));
+    if (!flipped.empty()) yaml += fmt::format("flip_idx: {}\n", Json(flipped).dump());
     yaml += "kpt_names:\n";
     for (std::size_t i = 0; i < dataset_.categories.size(); ++i) {
       std::vector<std::string> names = dataset_.keypoints[i].names;

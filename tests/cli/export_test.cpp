@@ -62,15 +62,6 @@ class ExportTest : public ProgramTest {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-  /// Of a script in tests/export, which says everything in its output.
-  Outcome python(const std::string& script_and_arguments) const {
-    const std::string log = (folder_ / "python.txt").string();
-    const int status =
-        std::system((std::string("PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 ") + SEEDFRAME_HOME +
-                     "/tests/export/" + script_and_arguments + " >" + log + " 2>&1")
-                        .c_str());
-    return {WEXITSTATUS(status), *read_file(log), {}};
-  }
   Outcome decoders(const std::string& output, const std::string& more = {}) const {
     return python("decoders/agreement.py " + (folder_ / "c").string() + " " +
                   (folder_ / output).string() + " " + more);

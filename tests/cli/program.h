@@ -2,6 +2,7 @@
 #pragma once
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -65,6 +66,16 @@ class ProgramTest : public ::testing::Test {
   Outcome run(const std::vector<std::string>& arguments,
               const std::vector<std::string>& environment = {}) {
     return wait(start(arguments, environment));
+  }
+
+  /// Of a script in tests/export, which says everything in its output.
+  Outcome python(const std::string& script_and_arguments) const {
+    const std::string log = (folder_ / "python.txt").string();
+    const std::string command = std::string("PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 ") +
+                                SEEDFRAME_HOME + "/tests/export/" + script_and_arguments + " >" +
+                                log + " 2>&1";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), *read_file(log), {}};
   }
 
   void write(const std::string& name, const std::string& text) {

@@ -2,11 +2,13 @@
 // the way.
 
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "export/formats.h"
 #include "tests/cli/program.h"
 
 namespace seedframe {
@@ -61,9 +63,12 @@ class RealBlenderCampaign : public ProgramTest {
     return text ? static_cast<int>(std::count(text->begin(), text->end(), '\n')) : 0;
   }
   void export_all(const std::string& campaign) {
-    const Outcome outcome =
-        run({"export", campaign, "--format", "coco", "--format", "coco-polygon", "--format",
-             "yolo-detect", "--format", "yolo-segment", "--split", "train=0.5,val=0.5"});
+    std::vector<std::string> arguments = {"export", campaign, "--split", "train=0.5,val=0.5"};
+    for (const FormatEntry& format : export_formats()) {
+      arguments.emplace_back("--format");
+      arguments.emplace_back(format.name);
+    }
+    const Outcome outcome = run(arguments);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   }
 };
@@ -99,6 +104,14 @@ TEST_F(RealBlenderCampaign, OneWorkerTwoWorkersAndAKilledRunGiveTheSameBytes) {
   const auto exports = contents("one/exports");
   EXPECT_EQ(contents("two/exports"), exports);
   EXPECT_EQ(contents("killed/exports"), exports);
+  const std::string one_folder = (folder_ / "one").string();
+  const Outcome decoded =
+      python("decoders/agreement.py " + one_folder + " " + one_folder + "/exports");
+  EXPECT_EQ(decoded.exit_code, 0) << decoded.output;
+  const Outcome pages = python("run_pages.py " + one_folder + "/exports");
+  EXPECT_EQ(pages.exit_code, 0) << pages.output;
+  const Outcome verified = run({"export", "one", "--verify"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.errors;
   EXPECT_EQ(*read_file(folder_ / "two/provenance.json"),
             *read_file(folder_ / "one/provenance.json"));
 
