@@ -29,7 +29,7 @@ std::optional<EarlierExport> EarlierExport::open(const fs::path& folder, const E
                                                  const std::vector<DocumentKind>& documents) {
   const auto found = read_marker(folder);
   if (!found || found->format != marker.format || found->campaign != marker.campaign ||
-      to_json(found->options) != to_json(marker.options)) {
+      found->dataset != marker.dataset || to_json(found->options) != to_json(marker.options)) {
     return std::nullopt;
   }
   auto earlier = open_for_reading(folder, marker.options.splits, documents);

@@ -20,7 +20,7 @@ namespace seedframe {
 /// Reads an export's index and documents in the order of the frames, in step with each other.
 class EarlierExport {
  public:
-  /// None when there is no export, or one of another format, campaign or other options.
+  /// None when there is no export, or one of another format, dataset or with other options.
   static std::optional<EarlierExport> open(const std::filesystem::path& folder,
                                            const ExportMarker& marker,
                                            const std::vector<DocumentKind>& documents);

@@ -7,15 +7,30 @@
 namespace seedframe {
 namespace {
 
+// Also of the bytes of all formats: nothing is taken over from an export of another version.
 constexpr int kVersion = 1;
 constexpr std::size_t kHashDigits = 32;
 
 }  // namespace
 
+std::string dataset_hash(const Dataset& dataset) {
+  Json keypoints = Json::array();
+  for (const ClassKeypoints& points : dataset.keypoints) {
+    keypoints.push_back({points.names, points.skeleton, points.mirrored});
+  }
+  Json assets = Json::array();
+  for (const OfferedAsset& offered : dataset.assets) {
+    assets.push_back({offered.asset->name, offered.asset->mesh_sha256});
+  }
+  return content_hash(canonical_json({dataset.categories, std::move(keypoints), std::move(assets),
+                                      dataset.seed, dataset.has_images, dataset.has_depth}));
+}
+
 std::string marker_text(const ExportMarker& marker) {
   return readable_json({{"version", kVersion},
                         {"format", marker.format},
                         {"campaign", marker.campaign},
+                        {"dataset", marker.dataset},
                         {"frames", marker.frames},
                         {"options", to_json(marker.options)}});
 }
@@ -40,6 +55,9 @@ Result<ExportMarker> read_marker(const std::filesystem::path& export_folder) {
   const auto campaign = json_field<std::string>(*json, "campaign", what);
   if (!campaign) return forward_error(campaign);
   marker.campaign = *campaign;
+  const auto dataset = json_field<std::string>(*json, "dataset", what);
+  if (!dataset) return forward_error(dataset);
+  marker.dataset = *dataset;
   const auto frames = json_field<std::int64_t>(*json, "frames", what);
   if (!frames) return forward_error(frames);
   marker.frames = *frames;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "export/dataset.h"
 #include "export/export_options.h"
 #include "export/frame_record.h"
 
@@ -18,9 +19,14 @@ inline constexpr const char* kIndexFile = "seedframe.index";
 struct ExportMarker {
   std::string format;
   std::string campaign;
+  std::string dataset;  ///< hash of what a format knows of all frames; see dataset_hash
   std::int64_t frames = 0;
   ExportOptions options;
 };
+
+/// Of classes, keypoints, assets and the seed: what changes the part of a frame that has not
+/// changed.
+std::string dataset_hash(const Dataset& dataset);
 
 std::string marker_text(const ExportMarker& marker);
 /// kCorrupt errors name the file: not a marker, or of a newer version.

@@ -39,8 +39,8 @@ class FormatExport {
     }
   }
 
-  Status begin(const std::string& campaign) {
-    marker_ = {entry_->name, campaign, 0, *options_};
+  Status begin(const Dataset& dataset) {
+    marker_ = {entry_->name, dataset.name, dataset_hash(dataset), 0, *options_};
     for (const fs::path& folder : format_->folders()) {
       if (Status made = folder_.make_folder(folder); !made) return made;
     }
@@ -411,7 +411,7 @@ Result<std::vector<ExportSummary>> run_export(const Dataset& dataset,
     auto folder = ExportFolder::create(options.output, entry->name);
     if (!folder) return forward_error(folder);
     exports.emplace_back(*entry, std::move(*format), std::move(*folder), options);
-    if (Status begun = exports.back().begin(dataset.name); !begun) return forward_error(begun);
+    if (Status begun = exports.back().begin(dataset); !begun) return forward_error(begun);
   }
   if (Status ran = ExportRun(dataset, options, exports).run(); !ran) return forward_error(ran);
   for (FormatExport& each : exports) {

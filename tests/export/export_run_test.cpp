@@ -175,6 +175,24 @@ TEST_P(EveryFormat, TakesNothingOverFromOtherOptions) {
   EXPECT_EQ(again->reused, 0);
 }
 
+TEST_P(EveryFormat, TakesNothingOverFromAnotherDataset) {
+  ASSERT_TRUE(run(split_options()));
+  campaign_.dataset().keypoints[0].names.emplace_back("middle");  // shifts every row of yolo-pose
+  auto again = run(split_options());
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->reused, 0);
+  EXPECT_EQ(verified().differences, 0);
+  auto first = std::make_shared<Asset>();
+  first->name = "anvil";  // shifts every object id of bop
+  first->mesh.positions = {{0, 0, 0}, {0.1F, 0, 0}, {0, 0.2F, 0}};
+  first->mesh.triangles = {{0, 1, 2}};
+  campaign_.dataset().assets.insert(campaign_.dataset().assets.begin(), {first, {}});
+  again = run(split_options());
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->reused, 0);
+  EXPECT_EQ(verified().differences, 0);
+}
+
 TEST_P(EveryFormat, LeavesTheOldExportWhenItFailsAtAnyFrame) {
   ASSERT_TRUE(run(options()));
   const auto before = files_below(output());
