@@ -24,11 +24,9 @@ std::optional<std::array<double, 2>> projected(const CameraSpec& camera,
 std::array<std::optional<std::array<double, 2>>, 8> projected_corners(
     const FrameSpec& spec, const Affine& camera_from_object, const BoundingBox& box) {
   std::array<std::optional<std::array<double, 2>>, 8> corners;
+  const auto points = box.corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector3d corner((i & 1) != 0 ? box.high.x() : box.low.x(),
-                                 (i & 2) != 0 ? box.high.y() : box.low.y(),
-                                 (i & 4) != 0 ? box.high.z() : box.low.z());
-    corners[i] = projected(spec.camera, camera_from_object * corner);
+    corners[i] = projected(spec.camera, camera_from_object * points[i]);
   }
   return corners;
 }

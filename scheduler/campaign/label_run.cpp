@@ -1,16 +1,10 @@
 #include "campaign/label_run.h"
 
+#include "base/clock.h"
 #include "base/files.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
-namespace {
-
-double unix_time() {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
-}  // namespace
 
 LabelRun::LabelRun(Campaign& campaign, PreparedCampaign& prepared, const RunOptions& options,
                    RunObserver& observer)

@@ -1,5 +1,6 @@
 #include "campaign/render_run.h"
 
+#include "base/clock.h"
 #include "base/files.h"
 #include "campaign/color_config.h"
 
@@ -23,10 +24,6 @@ PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) 
   std::error_code ignored;
   pool.environment["TMPDIR"] = fs::absolute(files.work(), ignored).string();
   return pool;
-}
-
-double unix_time() {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 ViewSettings view_settings(const ImageConfig& image) {

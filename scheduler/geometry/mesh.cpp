@@ -89,6 +89,16 @@ std::array<double, 3> z_row(const Eigen::Matrix3d& linear) {
 
 }  // namespace
 
+std::array<Eigen::Vector3d, 8> BoundingBox::corners() const {
+  std::array<Eigen::Vector3d, 8> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    corners[i] =
+        Eigen::Vector3d((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(),
+                        (i & 4) != 0 ? high.z() : low.z());
+  }
+  return corners;
+}
+
 BoundingBox bounding_box(const Mesh& mesh) {
   if (mesh.positions.empty()) return {};
   BoundingBox box{.low = position(mesh, 0), .high = position(mesh, 0)};

@@ -28,6 +28,8 @@ struct BoundingBox {
 
   Eigen::Vector3d size() const { return high - low; }
   Eigen::Vector3d centre() const { return 0.5 * (low + high); }
+  /// x alternates fastest between low and high, then y, then z.
+  std::array<Eigen::Vector3d, 8> corners() const;
 };
 
 BoundingBox bounding_box(const Mesh& mesh);

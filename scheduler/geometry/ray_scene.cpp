@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -24,10 +25,7 @@ PixelRect projected_rect(const BoundingBox& box, const Eigen::Affine3d& camera_f
   std::array<double, 2> low = {1e300, 1e300};
   std::array<double, 2> high = {-1e300, -1e300};
   int behind = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d point((corner & 1) != 0 ? box.high.x() : box.low.x(),
-                                (corner & 2) != 0 ? box.high.y() : box.low.y(),
-                                (corner & 4) != 0 ? box.high.z() : box.low.z());
+  for (const Eigen::Vector3d& point : box.corners()) {
     const Eigen::Vector3d seen = camera_from_object * point;
     if (-seen.z() <= camera.clip_start_m) {
       ++behind;
@@ -99,7 +97,8 @@ void for_each_index(int count, int threads, const Body& body) {
     for (int i = 0; i < count; ++i) body(i);
     return;
   }
-  tbb::task_arena arena(threads);
+  // More than there are cores would only make TBB warn.
+  tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
   arena.execute([&] { tbb::parallel_for(0, count, body); });
 }
 

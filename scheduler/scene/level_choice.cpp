@@ -17,10 +17,7 @@ double most_pixels_per_metre(const BoundingBox& box, const Affine& camera_from_o
                              const CameraSpec& camera) {
   double least_depth = std::numeric_limits<double>::infinity();
   double most_aside = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d point((corner & 1) != 0 ? box.high.x() : box.low.x(),
-                                (corner & 2) != 0 ? box.high.y() : box.low.y(),
-                                (corner & 4) != 0 ? box.high.z() : box.low.z());
+  for (const Eigen::Vector3d& point : box.corners()) {
     const Eigen::Vector3d seen = camera_from_object * point;
     least_depth = std::min(least_depth, -seen.z());
     most_aside = std::max(most_aside, seen.head<2>().norm());

@@ -50,7 +50,8 @@ def main():
         f"{1e6 * ours:.0f} µs) | {ratio:,.0f} × faster | ≥ {LEAST_RATIO} × | {told(verdicts[1])} |",
         f"| peak memory, 1,000 and 100,000 frames ({streams[1_000][0]['peak_kib'] / 1024:.1f} and "
         f"{first['peak_kib'] / 1024:.1f} MiB) | × {growth:.3f} | ≤ {MOST_GROWTH} | {told(verdicts[2])} |",
-        "", "The plain encoder is a loop over the pixels, as a first version in Python would be; its string is the same.", "",
+        "", "The plain encoder is a loop over the pixels, as a first version in Python would be; its string is the same. Against the 17 ms that a peer's Python",
+        f"takes for an instance, measured elsewhere, it would be {0.017 / ours:,.0f} ×. Peak memory includes making the frames.", "",
         "Before the entries of a frame can be written, its files are read and checked, on as many cores as there are:", "",
         "| step | ms a frame |", "|---|---:|",
         f"| SHA-256 of labels.json and instances.png | {step['hash_s']:.3f} |",
