@@ -6,8 +6,8 @@
 
 #include "base/campaign_files.h"
 #include "base/error.h"
-#include "campaign/campaign_lock.h"
 #include "base/manifest.h"
+#include "campaign/campaign_lock.h"
 #include "campaign/prepared_campaign.h"
 #include "render/frame_job.h"
 #include "store/job_store.h"

@@ -7,8 +7,8 @@
 #include "base/campaign_files.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "base/sha256.h"
 #include "base/manifest.h"
+#include "base/sha256.h"
 
 namespace seedframe {
 

@@ -1,7 +1,9 @@
 #include "export/export_run.h"
 
 #include <algorithm>
+#include <atomic>
 #include <deque>
+#include <mutex>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
@@ -329,6 +331,7 @@ class ExportRun {
 
   /// What is wrong with a frame does not end the search for others; a full disk does.
   void add_error(const Error& error) {
+    const std::lock_guard lock(errors_mutex_);  // the cursor may fail while frames are taken
     broken_ = true;
     if (error.kind != ErrorKind::kCorrupt) hopeless_ = true;
     if (++errors_ == 1) first_ = error;
@@ -365,6 +368,7 @@ class ExportRun {
   std::int64_t last_index_ = -1;
   std::atomic<bool> broken_ = false;
   std::atomic<bool> hopeless_ = false;
+  std::mutex errors_mutex_;  ///< guards what follows while the frames are under way
   std::int64_t errors_ = 0;
   Error first_;
   std::string told_;

@@ -1,6 +1,8 @@
 #include "export/verify.h"
 
 #include <algorithm>
+#include <atomic>
+#include <mutex>
 #include <set>
 
 #include <tbb/global_control.h>
@@ -73,9 +75,9 @@ class Verification {
 
  private:
   std::shared_ptr<VerifyTask> next() {
-    if (!error_) return nullptr;
+    if (failed_) return nullptr;
     auto frame = cursor_();
-    if (!frame) error_ = forward_error(frame);
+    if (!frame) fail_with(forward_error(frame));
     if (!frame || !*frame) return nullptr;
     auto task = std::make_shared<VerifyTask>();
     task->frame = std::move(**frame);
@@ -104,12 +106,34 @@ class Verification {
       return {};
     }
     task.annotations = at(task.part->entry.counts, Count::kAnnotations);
+    if (task.part->entry.split != split) {
+      task.differences.emplace_back("belongs to another split");
+    }
     if (!task.part->whole) {
       task.differences.emplace_back("an entry of it is missing, or not as it was written");
     }
     const WrittenFrame written = read_files(task, **selected);
     for (std::string& difference : format_.differences(**selected, written)) {
       task.differences.push_back(std::move(difference));
+    }
+    return compare_names(task, **selected);
+  }
+
+  /// The index must list all files that the frame should have: what it does not list is not read.
+  Status compare_names(VerifyTask& task, const ExportFrame& frame) const {
+    if (!format_.reusable()) return {};  // it has none, and encoding would count the frame again
+    const auto record = format_.encode(frame);
+    if (!record) return forward_error(record);
+    std::set<std::string> expected;
+    for (const FrameFile& file : record->files) expected.insert(file.path.string());
+    for (const PlacedFile& file : record->placed) expected.insert(file.path.string());
+    for (const IndexEntry::File& file : task.part->entry.files) {
+      if (expected.erase(file.path) == 0) {
+        task.differences.push_back(file.path + " is not one of its files");
+      }
+    }
+    for (const std::string& path : expected) {
+      task.differences.push_back(path + " is not in the export");
     }
     return {};
   }
@@ -135,7 +159,7 @@ class Verification {
 
   void take(const VerifyTask& task) {
     if (!task.status) {
-      if (error_) error_ = task.status;
+      fail_with(task.status);
       return;
     }
     ++summary_.frames;
@@ -143,6 +167,13 @@ class Verification {
     for (const std::string& difference : task.differences) {
       add_difference(fmt::format("frame {}: {}", task.frame.index, difference));
     }
+  }
+
+  /// Keeps the first error.
+  void fail_with(const Status& status) {
+    const std::lock_guard lock(error_mutex_);  // the cursor may fail while frames are taken
+    if (!failed_) error_ = status;
+    failed_ = true;
   }
 
   void finish() {
@@ -199,6 +230,8 @@ class Verification {
   std::vector<DocumentKind> documents_;
   EarlierExport written_;
   FrameCursor cursor_;
+  std::atomic<bool> failed_ = false;
+  std::mutex error_mutex_;
   Status error_;  ///< of the source
   std::int64_t listed_ = 0;
   VerifySummary summary_;

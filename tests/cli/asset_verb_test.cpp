@@ -95,5 +95,46 @@ TEST_F(AssetVerb, BadFilesAndOptionsAreInputErrors) {
   EXPECT_FALSE(exists("lib"));
 }
 
+TEST_F(AssetVerb, KeypointsAreSetShownAndTakenAway) {
+  ASSERT_EQ(import().exit_code, 0);
+  const std::vector<std::string> keypoints = {"asset", "keypoints", "part", "--root", "lib"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = keypoints;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  EXPECT_THAT(run(keypoints).output, HasSubstr("part: 0 keypoints"));
+  Outcome set = with({"tip=0,0,0.02", "heart=0.004,4e-3,0.004", "--inside", "heart", "--line",
+                      "tip-heart", "--mirror", "heart-tip"});
+  ASSERT_EQ(set.exit_code, 0) << set.errors;
+  const Outcome shown = run(keypoints);
+  EXPECT_EQ(shown.output, set.output);
+  EXPECT_THAT(shown.output, HasSubstr("tip at 0 0 0.02 m\n"));
+  EXPECT_THAT(shown.output, HasSubstr("heart at 0.004 0.004 0.004 m, inside\n"));
+  EXPECT_THAT(shown.output, HasSubstr("line tip-heart\n"));
+  EXPECT_THAT(shown.output, HasSubstr("mirror heart-tip\n"));
+  EXPECT_EQ(run({"asset", "check", "--root", "lib"}).exit_code, 0);
+  for (const auto& [arguments, complaint] :
+       std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"tip=0,0"}, "'tip=0,0' is not a keypoint: expected NAME=X,Y,Z"},
+           {{"tip=0,0,0x"}, "is not a keypoint"},
+           {{"a b=0,0,0"}, "is not a keypoint"},
+           {{"tip=0,0,nan"}, "'tip' is not at a place"},
+           {{"tip=0,0,0", "tip=1,0,0"}, "two keypoints are named 'tip'"},
+           {{"tip=0,0,0", "--inside", "tap"}, "did you mean 'tip'?"},
+           {{"tip=0,0,0", "--line", "tip"}, "expected two keypoints, such as head-tip"},
+           {{"tip=0,0,0", "--line", "tip-tail"}, "'tail', which there is not"},
+           {{"--line", "tip-heart"}, "give all of them again"}}) {
+    const Outcome refused = with(arguments);
+    EXPECT_EQ(refused.exit_code, 2) << complaint;
+    EXPECT_THAT(refused.errors, HasSubstr(complaint));
+    EXPECT_EQ(run(keypoints).output, shown.output) << "nothing was changed";
+  }
+  EXPECT_EQ(with({"--clear"}).exit_code, 0);
+  EXPECT_THAT(run(keypoints).output, HasSubstr("part: 0 keypoints"));
+  EXPECT_THAT(run({"asset", "keypoints", "prat", "--root", "lib"}).errors,
+              HasSubstr("did you mean 'part'?"));
+}
+
 }  // namespace
 }  // namespace seedframe

@@ -125,6 +125,26 @@ TEST_P(EveryFormat, ShowsFramesThatCameAndWent) {
               Contains(HasSubstr("frame 10 is in the export, and not in the campaign")));
 }
 
+TEST_P(EveryFormat, ShowsFramesInAnotherSplit) {
+  ASSERT_TRUE(run(split_options()));
+  campaign_.dataset().seed = 3;  // draws other scenes into val
+  if (!is_reused()) {
+    EXPECT_THAT(verified().first_differences, Contains(HasSubstr("other numbers")));
+    return;
+  }
+  EXPECT_THAT(verified().first_differences, Contains(HasSubstr("belongs to another split")));
+}
+
+TEST_P(EveryFormat, ShowsFilesThatTheIndexDoesNotList) {
+  ASSERT_TRUE(run(split_options()));
+  std::string index = *read_file(folder() / kIndexFile);
+  const std::size_t files = index.find("\"files\":[[");
+  if (files == std::string::npos) return;  // of the formats without files of their own
+  index.erase(files + 9, index.find("]]", files) - files - 8);
+  ASSERT_TRUE(write_quickly(folder() / kIndexFile, index));
+  EXPECT_GT(verified().differences, 0);
+}
+
 TEST_P(EveryFormat, RedoesOnlyWhatChanged) {
   ASSERT_TRUE(run(split_options()));
   campaign_.add_frame(12, 6, SyntheticDataset::discs(12));
