@@ -75,39 +75,21 @@ std::vector<std::uint8_t> changes_of(const Polygon& polygon, const PixelBox& box
 
 }  // namespace
 
-double coco_polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask) {
-  const PixelBox& box = mask.box();
+std::vector<std::uint8_t> coco_fill(const std::vector<Polygon>& polygons, const PixelBox& box) {
   const auto width = static_cast<std::size_t>(box.width);
   const auto height = static_cast<std::size_t>(box.height);
-  std::vector<std::uint8_t> covered(width * height, 0);  // column by column
+  std::vector<std::uint8_t> covered(width * height, 0);
   for (const Polygon& polygon : polygons) {
-    for (const Vertex& vertex : polygon) {
-      if (vertex.x < box.x * kVerticesPerPixel || vertex.y < box.y * kVerticesPerPixel ||
-          vertex.x > (box.x + box.width) * kVerticesPerPixel ||
-          vertex.y > (box.y + box.height) * kVerticesPerPixel) {
-        return 0.0;
-      }
-    }
     const std::vector<std::uint8_t> changes = changes_of(polygon, box);
     for (std::size_t column = 0; column < width; ++column) {
       std::uint8_t inside = 0;
       for (std::size_t row = 0; row < height; ++row) {
         inside ^= changes[column * (height + 1) + row];
-        covered[column * height + row] |= inside;
+        covered[row * width + column] |= inside;
       }
     }
   }
-  std::int64_t both = 0;
-  std::int64_t either = 0;
-  auto pixel = covered.begin();
-  for (int column = box.x; column < box.x + box.width; ++column) {
-    for (int row = box.y; row < box.y + box.height; ++row, ++pixel) {
-      const bool inside = mask.at(row, column);
-      both += inside && *pixel != 0;
-      either += inside || *pixel != 0;
-    }
-  }
-  return either == 0 ? 1.0 : static_cast<double>(both) / static_cast<double>(either);
+  return covered;
 }
 
 }  // namespace seedframe

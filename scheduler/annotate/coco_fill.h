@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "annotate/mask.h"
+#include "annotate/labels.h"
 #include "annotate/polygon.h"
 
 namespace seedframe {
 
-/// Intersection over union of what pycocotools makes of the polygons and the mask; 0 when a vertex
-/// is outside the mask's box.
-double coco_polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask);
+/// The pixels of `box` that any of the polygons covers, 0 or 1, row by row. No vertex may be
+/// outside the box.
+std::vector<std::uint8_t> coco_fill(const std::vector<Polygon>& polygons, const PixelBox& box);
 
 }  // namespace seedframe

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "annotate/coco_fill.h"
+
 namespace seedframe {
 namespace {
 
@@ -49,7 +51,7 @@ std::vector<std::uint8_t> fill_polygons(const std::vector<Polygon>& polygons, co
   return covered;
 }
 
-double polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask) {
+double polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask, FillRule rule) {
   const PixelBox& box = mask.box();
   for (const Polygon& polygon : polygons) {
     for (const Vertex& vertex : polygon) {
@@ -60,7 +62,8 @@ double polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask) {
       }
     }
   }
-  const std::vector<std::uint8_t> covered = fill_polygons(polygons, box);
+  const std::vector<std::uint8_t> covered =
+      rule == FillRule::kCoco ? coco_fill(polygons, box) : fill_polygons(polygons, box);
   std::int64_t both = 0;
   std::int64_t either = 0;
   auto pixel = covered.begin();

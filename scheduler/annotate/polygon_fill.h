@@ -13,8 +13,13 @@ namespace seedframe {
 /// The pixels of `box` that any of the polygons covers, 0 or 1, row by row.
 std::vector<std::uint8_t> fill_polygons(const std::vector<Polygon>& polygons, const PixelBox& box);
 
+enum class FillRule {
+  kCentres,  ///< fill_polygons
+  kCoco,     ///< coco_fill
+};
+
 /// Intersection over union of the polygons' pixels and the mask; 0 when a vertex is outside the
 /// mask's box.
-double polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask);
+double polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask, FillRule rule);
 
 }  // namespace seedframe

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "annotate/coco_fill.h"
+#include "annotate/polygon_fill.h"
 
 namespace seedframe {
 namespace {
@@ -154,7 +154,8 @@ std::vector<Polygon> simplified_polygons(const Mask& mask) {
       possible = possible && fewer.back().size() >= 3;
       left += fewer.back().size();
     }
-    if (possible && left < vertices && coco_polygon_iou(fewer, mask) >= kLeastSimplifiedIou)
+    if (possible && left < vertices &&
+        polygon_iou(fewer, mask, FillRule::kCoco) >= kLeastSimplifiedIou)
       return fewer;
   }
   return exact;

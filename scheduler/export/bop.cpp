@@ -15,8 +15,6 @@ namespace {
 
 // In the order of documents().
 enum Document { kCamera, kGroundTruth, kInfo, kCoco, kTargets };
-constexpr int kCocoImages = 0;
-constexpr int kCocoAnnotations = 1;
 
 Json matrix_json(const Eigen::Matrix3d& matrix) {
   Json list = Json::array();
@@ -91,12 +89,8 @@ class Bop : public ExportFormat {
     return {object("{split}/{scene}/scene_camera.json"),
             object("{split}/{scene}/scene_gt.json"),
             object("{split}/{scene}/scene_gt_info.json"),
-            {.path = "{split}/{scene}/scene_gt_coco.json",
-             .scope = DocumentKind::Scope::kScene,
-             .header = coco_header(dataset_, categories),
-             .breaks = {kCocoBreak},
-             .footer = kCocoFooter,
-             .separator = kCocoSeparator},
+            coco_document("{split}/{scene}/scene_gt_coco.json", DocumentKind::Scope::kScene,
+                          dataset_, categories),
             {.path = "{split}_targets_bop19.json",
              .scope = DocumentKind::Scope::kSplit,
              .header = "[\n",

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "annotate/coco_fill.h"
 #include "annotate/mask.h"
 #include "annotate/polygon.h"
+#include "annotate/polygon_fill.h"
 #include "annotate/polygon_simplify.h"
 #include "base/campaign_files.h"
 #include "export/coco_entry.h"
@@ -14,8 +14,6 @@ namespace seedframe {
 namespace {
 
 enum class Kind { kRle, kPolygon, kKeypoints };
-constexpr int kImages = 0;
-constexpr int kAnnotations = 1;
 
 std::string polygons_text(const std::vector<Polygon>& polygons) {
   std::string text = "[";
@@ -59,13 +57,9 @@ class CocoInstances : public ExportFormat {
   std::vector<DocumentKind> documents() const override {
     Json categories = coco_categories(dataset_);
     if (kind_ == Kind::kKeypoints) add_keypoint_names(categories);
-    return {{.path = kind_ == Kind::kKeypoints ? "annotations/keypoints_{split}.json"
-                                               : "annotations/instances_{split}.json",
-             .scope = DocumentKind::Scope::kSplit,
-             .header = coco_header(dataset_, categories),
-             .breaks = {kCocoBreak},
-             .footer = kCocoFooter,
-             .separator = kCocoSeparator}};
+    const char* path = kind_ == Kind::kKeypoints ? "annotations/keypoints_{split}.json"
+                                                 : "annotations/instances_{split}.json";
+    return {coco_document(path, DocumentKind::Scope::kSplit, dataset_, categories)};
   }
 
   std::vector<std::filesystem::path> folders() const override {
@@ -82,19 +76,20 @@ class CocoInstances : public ExportFormat {
     FrameRecord record;
     record.counts = frame.counts;
     at(record.counts, Count::kAnnotations) = 0;
-    record.chunks.push_back({0, kImages, coco_image(frame, frame.stem + ".png")});
+    record.chunks.push_back({0, kCocoImages, coco_image(frame, frame.stem + ".png")});
     for (const ExportInstance& instance : frame.instances) {
       if (!wanted(instance)) continue;
       ++at(record.counts, Count::kAnnotations);
       if (kind_ != Kind::kKeypoints) {
         record.chunks.push_back(
-            {0, kAnnotations, coco_annotation(frame, instance, mask(instance))});
+            {0, kCocoAnnotations, coco_annotation(frame, instance, mask(instance))});
         continue;
       }
       auto keypoints = keypoints_of(frame, instance);
       if (!keypoints) return forward_error(keypoints);
       record.chunks.push_back(
-          {0, kAnnotations, coco_annotation(frame, instance, coco_rle(instance.mask), *keypoints)});
+          {0, kCocoAnnotations,
+           coco_annotation(frame, instance, coco_rle(instance.mask), *keypoints)});
     }
     if (dataset_.has_images) {
       record.placed.push_back(image_at("images/" + frame.split + "/" + frame.stem + ".png", frame));
@@ -180,7 +175,7 @@ class CocoInstances : public ExportFormat {
     } else {
       const auto polygons = polygons_from_json(segmentation);
       if (!polygons) return "its polygons cannot be read";
-      const double iou = coco_polygon_iou(*polygons, instance.mask);
+      const double iou = polygon_iou(*polygons, instance.mask, FillRule::kCoco);
       const double least =
           options_.polygon_detail == PolygonDetail::kExact ? 1.0 : kLeastSimplifiedIou;
       if (iou < least) return fmt::format("its polygons have an IoU of {:.4f} with the mask", iou);

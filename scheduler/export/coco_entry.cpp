@@ -64,15 +64,24 @@ std::string coco_annotation(const ExportFrame& frame, const ExportInstance& inst
   return text + "}";
 }
 
-std::string coco_header(const Dataset& dataset, const Json& categories) {
+DocumentKind coco_document(std::string path, DocumentKind::Scope scope, const Dataset& dataset,
+                           const Json& categories) {
   const Json info = {{"description", fmt::format("Seedframe campaign '{}'", dataset.name)},
                      {"version", "1"}};
-  std::string text =
+  const std::string separator = ",\n";
+  std::string header =
       "{\n\"info\":" + canonical_json(info) + ",\n\"licenses\":[],\n\"categories\":[\n";
   for (std::size_t i = 0; i < categories.size(); ++i) {
-    text += (i > 0 ? kCocoSeparator : "") + canonical_json(categories[i]);
+    if (i > 0) header += separator;
+    header += canonical_json(categories[i]);
   }
-  return text + "\n],\n\"images\":[\n";
+  header += "\n],\n\"images\":[\n";
+  return {.path = std::move(path),
+          .scope = scope,
+          .header = std::move(header),
+          .breaks = {"\n],\n\"annotations\":[\n"},
+          .footer = "\n]\n}\n",
+          .separator = separator};
 }
 
 Json coco_categories(const Dataset& dataset) {

@@ -9,6 +9,7 @@
 #include "annotate/mask.h"
 #include "base/canonical_json.h"
 #include "export/dataset.h"
+#include "export/document.h"
 #include "export/export_frame.h"
 
 namespace seedframe {
@@ -28,12 +29,11 @@ std::string coco_image(const ExportFrame& frame, std::string_view file_name);
 std::string coco_annotation(const ExportFrame& frame, const ExportInstance& instance,
                             std::string_view segmentation, std::string_view keypoints = {});
 
-/// The whole header of a COCO file up to the first image, and what stands between images and
-/// annotations, and after them.
-std::string coco_header(const Dataset& dataset, const Json& categories);
-inline constexpr const char* kCocoBreak = "\n],\n\"annotations\":[\n";
-inline constexpr const char* kCocoFooter = "\n]\n}\n";
-inline constexpr const char* kCocoSeparator = ",\n";
+/// A COCO file with these categories: images in its section 0, annotations in section 1.
+DocumentKind coco_document(std::string path, DocumentKind::Scope scope, const Dataset& dataset,
+                           const Json& categories);
+inline constexpr int kCocoImages = 0;
+inline constexpr int kCocoAnnotations = 1;
 
 /// {"id":1,"name":"bolt","supercategory":"object"} for every category.
 Json coco_categories(const Dataset& dataset);

@@ -5,16 +5,13 @@
 #include <deque>
 #include <mutex>
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
-
 #include "base/campaign_files.h"
 #include "base/files.h"
 #include "base/sha256.h"
 #include "export/document.h"
 #include "export/earlier_export.h"
 #include "export/export_index.h"
+#include "export/frame_pipeline.h"
 #include "export/split.h"
 
 namespace seedframe {
@@ -207,28 +204,9 @@ class ExportRun {
   }
 
   Status run() {
-    using TaskPointer = std::shared_ptr<FrameTask>;
-    const auto threads = static_cast<std::size_t>(options_.workers);
-    const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, threads);
-    tbb::task_arena arena(options_.workers);
-    arena.execute([&] {
-      tbb::parallel_pipeline(
-          2 * threads,
-          tbb::make_filter<void, TaskPointer>(tbb::filter_mode::serial_in_order,
-                                              [this](tbb::flow_control& control) -> TaskPointer {
-                                                auto task = next();
-                                                if (!task) control.stop();
-                                                return task;
-                                              }) &
-              tbb::make_filter<TaskPointer, TaskPointer>(tbb::filter_mode::parallel,
-                                                         [this](TaskPointer task) {
-                                                           make(*task);
-                                                           return task;
-                                                         }) &
-              tbb::make_filter<TaskPointer, void>(
-                  tbb::filter_mode::serial_in_order,
-                  [this](const TaskPointer& task) { take(*task); }));
-    });
+    run_frame_pipeline<FrameTask>(
+        options_.workers, [this] { return next(); }, [this](FrameTask& task) { make(task); },
+        [this](FrameTask& task) { take(task); });
     return verdict();
   }
 

@@ -7,9 +7,6 @@
 namespace seedframe {
 namespace {
 
-constexpr int kImages = 0;
-constexpr int kAnnotations = 1;
-
 std::string png_path(const ExportFrame& frame) {
   return "annotations/panoptic_" + frame.split + "/" + frame.stem + ".png";
 }
@@ -27,12 +24,8 @@ class CocoPanoptic : public ExportFormat {
       categories[k]["isthing"] = 1;
       categories[k]["color"] = voc_color(k + 1);
     }
-    return {{.path = "annotations/panoptic_{split}.json",
-             .scope = DocumentKind::Scope::kSplit,
-             .header = coco_header(dataset_, categories),
-             .breaks = {kCocoBreak},
-             .footer = kCocoFooter,
-             .separator = kCocoSeparator}};
+    return {coco_document("annotations/panoptic_{split}.json", DocumentKind::Scope::kSplit,
+                          dataset_, categories)};
   }
 
   std::vector<std::filesystem::path> folders() const override {
@@ -49,8 +42,8 @@ class CocoPanoptic : public ExportFormat {
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     FrameRecord record;
     record.counts = frame.counts;
-    record.chunks.push_back({0, kImages, coco_image(frame, frame.stem + ".png")});
-    record.chunks.push_back({0, kAnnotations, entry(frame)});
+    record.chunks.push_back({0, kCocoImages, coco_image(frame, frame.stem + ".png")});
+    record.chunks.push_back({0, kCocoAnnotations, entry(frame)});
     record.files.push_back({png_path(frame), encode_png(segments(frame), PngContent::kLabels)});
     if (dataset_.has_images) {
       record.placed.push_back(image_at("images/" + frame.split + "/" + frame.stem + ".png", frame));

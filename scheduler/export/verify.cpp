@@ -5,16 +5,12 @@
 #include <mutex>
 #include <set>
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
-
 #include "base/campaign_files.h"
 #include "base/files.h"
-#include "base/sha256.h"
 #include "export/earlier_export.h"
 #include "export/export_index.h"
-#include "export/export_run.h"
+#include "export/formats.h"
+#include "export/frame_pipeline.h"
 #include "export/split.h"
 
 namespace seedframe {
@@ -46,28 +42,10 @@ class Verification {
   }
 
   Result<VerifySummary> run(int workers) {
-    using TaskPointer = std::shared_ptr<VerifyTask>;
-    const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(workers));
-    tbb::task_arena arena(workers);
-    arena.execute([&] {
-      tbb::parallel_pipeline(
-          2 * static_cast<std::size_t>(workers),
-          tbb::make_filter<void, TaskPointer>(tbb::filter_mode::serial_in_order,
-                                              [this](tbb::flow_control& control) -> TaskPointer {
-                                                auto task = next();
-                                                if (!task) control.stop();
-                                                return task;
-                                              }) &
-              tbb::make_filter<TaskPointer, TaskPointer>(tbb::filter_mode::parallel,
-                                                         [this](TaskPointer task) {
-                                                           task->status = compare(*task);
-                                                           return task;
-                                                         }) &
-              tbb::make_filter<TaskPointer, void>(
-                  tbb::filter_mode::serial_in_order,
-                  [this](const TaskPointer& task) { take(*task); }));
-    });
+    run_frame_pipeline<VerifyTask>(
+        workers, [this] { return next(); },
+        [this](VerifyTask& task) { task.status = compare(task); },
+        [this](const VerifyTask& task) { take(task); });
     if (!error_) return forward_error(error_);
     finish();
     return std::move(summary_);

@@ -292,7 +292,7 @@ class Yolo : public ExportFormat {
     if (options_.polygon_vertices == PolygonVertices::kCentres) {
       return decoded == polygon(instance).polygon ? "" : "its polygon is another";
     }
-    const double iou = polygon_iou({decoded}, instance.mask);
+    const double iou = polygon_iou({decoded}, instance.mask, FillRule::kCentres);
     const auto area = static_cast<double>(instance.area_px);
     const double whole = (area - static_cast<double>(polygon(instance).left_out_px)) / area;
     return iou == whole ? "" : fmt::format("its polygon has an IoU of {:.4f} with the mask", iou);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "annotate/coco_fill.h"
 #include "annotate/extents.h"
 #include "annotate/polygon_simplify.h"
 #include "coco_decoder.h"
@@ -62,7 +61,7 @@ TEST(CocoFill, AgreesWithTheDecoderOfTheTests) {
     const IdImage ids = ring(60, 20.0 + static_cast<double>(seed % 8), 3.0);
     const Mask mask = only_mask(ids);
     std::vector<Polygon> polygons = part_polygons(mask, kOnPixelEdges);
-    EXPECT_EQ(coco_polygon_iou(polygons, mask), 1.0);
+    EXPECT_EQ(polygon_iou(polygons, mask, FillRule::kCoco), 1.0);
     // Any vertices, also on half pixels, as simplified polygons have them.
     std::mt19937_64 random(seed);
     const PixelBox& box = mask.box();
@@ -75,7 +74,8 @@ TEST(CocoFill, AgreesWithTheDecoderOfTheTests) {
         vertex = {near(vertex.x, box.x, box.width), near(vertex.y, box.y, box.height)};
       }
     }
-    EXPECT_NEAR(coco_polygon_iou(polygons, mask), coco_iou(polygons, ids), 1e-12) << seed;
+    EXPECT_NEAR(polygon_iou(polygons, mask, FillRule::kCoco), coco_iou(polygons, ids), 1e-12)
+        << seed;
   }
 }
 
@@ -83,10 +83,11 @@ TEST(PolygonFill, GivesTheMaskBackFromEveryPlacement) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const IdImage ids = noise(seed, 23, 17, static_cast<int>(1 + seed % 9));
     const Mask mask = only_mask(ids);
-    EXPECT_EQ(polygon_iou(part_polygons(mask, kOnPixelEdges), mask), 1.0) << seed;
+    EXPECT_EQ(polygon_iou(part_polygons(mask, kOnPixelEdges), mask, FillRule::kCentres), 1.0)
+        << seed;
     const WholePolygon whole = whole_polygon(mask, kInsidePixelEdges);
     const auto area = static_cast<double>(mask.area_px());
-    EXPECT_EQ(polygon_iou({whole.polygon}, mask),
+    EXPECT_EQ(polygon_iou({whole.polygon}, mask, FillRule::kCentres),
               (area - static_cast<double>(whole.left_out_px)) / area)
         << seed;
   }
@@ -100,10 +101,10 @@ TEST(PolygonFill, SeesAPixelTooManyOrTooFew) {
   const Mask mask = only_mask(ids);
   const auto polygons = part_polygons(mask, kOnPixelEdges);
   ids.at(5, 5) = 0;
-  EXPECT_NEAR(polygon_iou(polygons, mask), 34.0 / 35.0, 1e-12);
+  EXPECT_NEAR(polygon_iou(polygons, mask, FillRule::kCentres), 34.0 / 35.0, 1e-12);
   Polygon beyond = polygons[0];
   for (Vertex& vertex : beyond) vertex.x += kVerticesPerPixel;
-  EXPECT_EQ(polygon_iou({beyond}, mask), 0.0) << "it leaves the box";
+  EXPECT_EQ(polygon_iou({beyond}, mask, FillRule::kCentres), 0.0) << "it leaves the box";
 }
 
 TEST(PolygonSimplify, SavesVerticesOfLargeMasksAtTheStatedIou) {
