@@ -209,7 +209,8 @@ TEST(Keypoints, StandWhereTheyAreSeen) {
 TEST(Keypoints, BehindTheCameraAreOutside) {
   FrameSpec spec = with_keypoints();
   spec.instances[0].camera_from_object(2, 3) = 20.0;
-  for (const KeypointLabel& point : labels_of(spec).instances[0].keypoints) {
+  const FrameLabels labels = labels_of(spec);
+  for (const KeypointLabel& point : labels.instances[0].keypoints) {
     EXPECT_EQ(point.visibility, Visibility::kOutside);
   }
 }
