@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws what the exports say about one frame over its image, for people to look at.
 
-    scripts/export_sheet.py EXPORTS_DIR STEM OUT.png
+    scripts/export_sheet.py EXPORTS_DIR STEM docs/images/exports.jpg
 
 Reads coco-panoptic, coco-keypoints, yolo-detect, yolo-obb, bop and patches, as far as they are there.
 """
@@ -15,6 +15,7 @@ from PIL import Image, ImageDraw
 
 SCALE = 2
 TILES = 3  # a row
+WIDTH = 1464  # of the sheet, at most
 
 
 def main():
@@ -35,7 +36,8 @@ def main():
         y = 24 + index // TILES * (photo.height + 28)
         sheet.paste(tile, (x, y))
         pen.text((x, y - 14), name, fill="black")
-    sheet.save(out)
+    sheet.thumbnail((WIDTH, WIDTH))
+    sheet.save(out, quality=86)
 
 
 def color_of(index):
