@@ -60,15 +60,20 @@ std::optional<std::string> EarlierExport::read_piece(const IndexEntry::Piece& pi
   if (found == open_documents_.end()) {
     for (auto each = open_documents_.begin();
          open_documents_.size() >= kMostOpenDocuments && each != open_documents_.end();) {
-      const bool over = each->second && each->second->at_end();
+      const Document& document_there = each->second;
+      const bool over =
+          !document_there.of_split && document_there.reader && document_there.reader->at_end();
       each = over ? open_documents_.erase(each) : std::next(each);
     }
-    found = open_documents_
-                .emplace(piece.document, DocumentReader::open(folder_ / piece.document, kind))
-                .first;
+    ++opened_;
+    found =
+        open_documents_
+            .emplace(piece.document, Document{DocumentReader::open(folder_ / piece.document, kind),
+                                              kind.scope == DocumentKind::Scope::kSplit})
+            .first;
   }
-  if (!found->second) return std::nullopt;
-  return found->second->next(piece.section, piece.bytes);
+  if (!found->second.reader) return std::nullopt;
+  return found->second.reader->next(piece.section, piece.bytes);
 }
 
 EarlierExport::Part EarlierExport::read_part() {
@@ -101,10 +106,22 @@ std::optional<EarlierExport::Part> EarlierExport::take(std::int64_t frame) {
   return read_part();
 }
 
+void EarlierExport::open_empty_documents() {
+  for (const DocumentKind& kind : kinds_) {
+    if (kind.scope != DocumentKind::Scope::kSplit) continue;
+    for (const SplitShare& split : splits_) {
+      const std::string path = kind.path_of(split.name, 0, 0);
+      if (open_documents_.count(path) > 0) continue;
+      open_documents_.emplace(path, Document{DocumentReader::open(folder_ / path, kind), true});
+      ++opened_;
+    }
+  }
+}
+
 std::vector<std::string> EarlierExport::not_read_to_the_end() const {
   std::vector<std::string> names;
   for (const auto& [name, document] : open_documents_) {
-    if (!document || !document->at_end()) names.push_back(name);
+    if (!document.reader || !document.reader->at_end()) names.push_back(name);
   }
   return names;
 }

@@ -42,6 +42,11 @@ class EarlierExport {
   /// Documents that hold more than was taken from them, or that cannot be read.
   std::vector<std::string> not_read_to_the_end() const;
 
+  /// Opens the documents of splits in which no frame has an entry; they must be empty.
+  void open_empty_documents();
+  /// How many documents there should be: those that were opened.
+  std::int64_t documents() const { return opened_; }
+
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
@@ -55,7 +60,12 @@ class EarlierExport {
   std::vector<DocumentKind> kinds_;
   std::ifstream index_;
   std::optional<IndexEntry> entry_;  ///< read, and not taken
-  std::map<std::string, std::optional<DocumentReader>> open_documents_;
+  struct Document {
+    std::optional<DocumentReader> reader;  ///< none: it cannot be read
+    bool of_split = true;                  ///< stays open to the end
+  };
+  std::map<std::string, Document> open_documents_;
+  std::int64_t opened_ = 0;
 };
 
 }  // namespace seedframe

@@ -159,6 +159,7 @@ class Verification {
       add_difference(
           fmt::format("frame {} is in the export, and not in the campaign", rest->entry.frame));
     }
+    written_.open_empty_documents();
     for (const std::string& name : written_.not_read_to_the_end()) {
       add_difference(name + " holds entries that belong to no frame, or cannot be read");
     }
@@ -171,14 +172,21 @@ class Verification {
   /// Files that no frame and no document accounts for.
   void count_files() {
     std::int64_t found = 0;
+    std::int64_t documents = 0;
     std::error_code error;
     for (fs::recursive_directory_iterator entry(folder_, error), end; !error && entry != end;
          entry.increment(error)) {
       if (!entry->is_regular_file()) continue;
       const std::string path = fs::relative(entry->path(), folder_).string();
-      const bool shared = path == kMarkerFile || path == kIndexFile || is_document(path) ||
-                          format_.is_common_file(path);
+      const bool document = is_document(path);
+      documents += document;
+      const bool shared =
+          document || path == kMarkerFile || path == kIndexFile || format_.is_common_file(path);
       if (!shared) ++found;
+    }
+    if (documents > written_.documents()) {
+      add_difference(
+          fmt::format("{} shared files belong to no frame", documents - written_.documents()));
     }
     if (found > listed_) {
       add_difference(fmt::format("{} files belong to no frame", found - listed_));

@@ -115,6 +115,28 @@ TEST_P(EveryFormat, ShowsAChangeOfAnyFile) {
   EXPECT_THAT(verified().first_differences, Contains(HasSubstr("belong to no frame")));
 }
 
+TEST_P(EveryFormat, ShowsSharedFilesOfNoFrame) {
+  ExportOptions three = options();
+  three.splits = {{"train", 1.0 - 1e-9}, {"val", 1e-9}};
+  ASSERT_TRUE(run(three));  // val is empty
+  EXPECT_EQ(verified().differences, 0);
+  for (const auto& [path, bytes] : files_below(folder())) {
+    const std::size_t split = path.find("train");
+    if (split == std::string::npos || path.find("seedframe") != std::string::npos) continue;
+    std::string other = path;
+    other.replace(split, 5, "val");
+    const auto before = read_file(folder() / other);
+    fs::create_directories((folder() / other).parent_path());
+    ASSERT_TRUE(write_quickly(folder() / other, bytes));
+    EXPECT_GT(verified().differences, 0) << other;
+    fs::remove(folder() / other);
+    if (before) {
+      ASSERT_TRUE(write_quickly(folder() / other, *before));
+    }
+  }
+  EXPECT_EQ(verified().differences, 0);
+}
+
 TEST_P(EveryFormat, ShowsFramesThatCameAndWent) {
   ASSERT_TRUE(run(split_options()));
   campaign_.add_frame(12, 6, SyntheticDataset::discs(12));
