@@ -1,41 +1,71 @@
-"""Which of its CPU kernels Cycles runs: images differ in their last bits between them."""
+"""What computes the pixels: kernels of Cycles and Embree, and the CPU's approximate reciprocals.
 
+Images differ in their last bits between any of them (docs/determinism.md).
+"""
+
+import ctypes
 import os
+import platform
 
-_AVX2 = {"avx2", "fma", "f16c", "bmi1", "bmi2"}
-# Best first, with the CPU flags that a kernel needs and the variable that forbids it.
+# Best first, as Cycles names what the CPU can, and with the variable that forbids it.
 _KERNELS = (
-    ("avx2", _AVX2, "CYCLES_CPU_NO_AVX2"),
-    ("avx", {"avx"}, "CYCLES_CPU_NO_AVX"),
-    ("sse41", {"sse4_1"}, "CYCLES_CPU_NO_SSE41"),
-    ("sse3", {"pni", "ssse3"}, "CYCLES_CPU_NO_SSE3"),
-    ("sse2", {"sse2"}, "CYCLES_CPU_NO_SSE2"),
+    ("avx2", "AVX2", "CYCLES_CPU_NO_AVX2"),
+    ("avx", "AVX", "CYCLES_CPU_NO_AVX"),
+    ("sse41", "SSE41", "CYCLES_CPU_NO_SSE41"),
+    ("sse3", "SSE3", "CYCLES_CPU_NO_SSE3"),
+    ("sse2", "SSE2", "CYCLES_CPU_NO_SSE2"),
 )
 _REMOVED_IN_4_0 = {"avx", "sse3"}
 
 
-def choose(flags, environment, blender_version):
-    """The kernel for a CPU with these flags. Cycles uses one only if all lesser ones are allowed."""
+def choose(capabilities, environment, blender_version):
+    """The kernel for a CPU that can so much. Cycles uses one only if all lesser ones are allowed."""
     best = "generic"
-    for name, needed, forbidding in reversed(_KERNELS):
-        if forbidding in environment or not needed <= flags:
+    for name, capability, forbidding in reversed(_KERNELS):
+        if forbidding in environment or capability not in capabilities:
             break
         if blender_version < (4, 0, 0) or name not in _REMOVED_IN_4_0:
             best = name
     return best
 
 
-def current(blender_version):
-    return choose(_cpu_flags(), os.environ, blender_version)
-
-
-def _cpu_flags():
-    try:
-        with open("/proc/cpuinfo", encoding="ascii", errors="replace") as lines:
-            for line in lines:
-                key, _, value = line.partition(":")
-                if key.strip() == "flags":
-                    return set(value.split())
-    except OSError:
-        pass
+def capabilities_in(system_info):
+    """Of what Cycles says of the system; none if it is silent about the CPU."""
+    for line in system_info.splitlines():
+        key, _, value = line.partition(":")
+        if key.strip() == "CPU device capabilities":
+            return set(value.split())
     return set()
+
+
+def current(blender_version):
+    import _cycles  # part of Blender
+
+    return choose(capabilities_in(_cycles.system_info()), os.environ, blender_version)
+
+
+def embree():
+    """Embree's kernels; empty if they cannot be told, since Embree is no library of its own."""
+    preloaded = ctypes.CDLL(None)
+    if not hasattr(preloaded, "seedframe_embree_isa") or not _is_loaded("/libembree"):
+        return ""
+    preloaded.seedframe_embree_isa.restype = ctypes.c_char_p
+    return preloaded.seedframe_embree_isa().decode("ascii")
+
+
+def reciprocals():
+    """A hash of the approximate reciprocals; empty if it cannot be told."""
+    preloaded = ctypes.CDLL(None)
+    if not hasattr(preloaded, "seedframe_reciprocals"):
+        return ""
+    preloaded.seedframe_reciprocals.restype = ctypes.c_uint64
+    return f"{preloaded.seedframe_reciprocals():016x}"
+
+
+def libc():
+    return " ".join(platform.libc_ver())
+
+
+def _is_loaded(library):
+    with open("/proc/self/maps", encoding="utf-8", errors="replace") as lines:
+        return any(library in line for line in lines)

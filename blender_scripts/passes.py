@@ -11,14 +11,17 @@ def sharp_output(output):
 
 
 class PassRenderer:
-    def __init__(self, scene):
+    def __init__(self, scene, persistent_data=False):
+        """With persistent data, pixels depend on the frames before."""
         self._scene = scene
         self._view_layer = scene.view_layers[0]
         _set_constants(scene)
+        scene.render.use_persistent_data = persistent_data
 
-    def render(self, settings, output):
-        """Writes the passes of the present scene to `output`."""
+    def render(self, settings, output, frame_id):
+        """Writes the passes of the present scene to `output`, with the id in the header's "Note"."""
         render, cycles = self._scene.render, self._scene.cycles
+        render.stamp_note_text = frame_id
         render.resolution_x = settings["width"]
         render.resolution_y = settings["height"]
         render.filepath = output
@@ -52,7 +55,6 @@ def _set_constants(scene):
     render.use_simplify = False
     render.use_compositing = False
     render.use_sequencer = False
-    render.use_persistent_data = False  # with it, pixels would depend on the frames before
     _set_cycles(scene.cycles)
     _set_output(render)
     # Exposure and view are ImageSettings and belong to the scheduler.
@@ -90,6 +92,7 @@ def _set_output(render):
     render.use_overwrite = True
     render.use_file_extension = False
     render.use_placeholder = False
-    for stamp in ("time", "date", "frame", "frame_range", "camera", "lens", "scene", "note", "marker",
+    for stamp in ("time", "date", "frame", "frame_range", "camera", "lens", "scene", "marker",
                   "filename", "sequencer_strip", "render_time", "memory", "hostname"):
         setattr(render, f"use_stamp_{stamp}", False)
+    render.use_stamp_note = True

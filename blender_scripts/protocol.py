@@ -3,8 +3,10 @@
 import dataclasses
 import json
 import os
+import threading
+import time
 
-PROTOCOL = 1
+PROTOCOL = 3
 SPEC_VERSION = 4
 
 
@@ -16,6 +18,7 @@ class ProtocolError(Exception):
 class RenderRequest:
     frame: int
     attempt: int
+    frame_id: str
     spec: dict
     output: str
     meshes: dict
@@ -41,9 +44,18 @@ class Ready:
     blender: str
     build: str
     ocio_config: str
-    cpu: str
+    kernel: str
+    embree: str
+    reciprocals: str
+    libc: str
     protocol: int = PROTOCOL
     type: str = "ready"
+
+
+@dataclasses.dataclass(frozen=True)
+class Alive:
+    memory_bytes: int
+    type: str = "alive"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -72,15 +84,32 @@ class Channel:
         os.set_inheritable(write_fd, False)
         self._reader = os.fdopen(read_fd, "rb", buffering=1 << 16, closefd=False)
         self._write_fd = write_fd
+        self._lock = threading.Lock()  # lines of several threads
 
     def send(self, message):
         line = json.dumps(dataclasses.asdict(message), ensure_ascii=False) + "\n"
         data = line.encode("utf-8", errors="replace")
-        while data:
-            data = data[os.write(self._write_fd, data):]
+        with self._lock:
+            while data:
+                data = data[os.write(self._write_fd, data):]
+
+    def send_signs_of_life(self, interval_s):
+        """Sends `Alive` for ever, from a thread of its own."""
+        def send():
+            while True:
+                self.send(Alive(resident_bytes()))
+                time.sleep(interval_s)
+
+        threading.Thread(target=send, daemon=True).start()
 
     def requests(self):
         """Yields requests until the scheduler closes its end."""
         for line in self._reader:
             if line.endswith(b"\n"):  # half a line means that the scheduler died while writing
                 yield RenderRequest.parse(line)
+
+
+def resident_bytes():
+    """Of this process (proc(5), statm)."""
+    with open("/proc/self/statm", encoding="ascii") as counts:
+        return int(counts.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")

@@ -20,6 +20,7 @@ from protocol import SPEC_VERSION, Channel, Done, Failed, Ready  # noqa: E402
 from scene_builder import SceneBuilder  # noqa: E402
 
 _LONGEST_ERROR = 2000
+_SIGN_OF_LIFE_S = 2.0
 
 
 def main():
@@ -28,9 +29,10 @@ def main():
     os.sched_setaffinity(0, options.cpus)
     channel = Channel(options.read_fd, options.write_fd)
     builder = SceneBuilder()
-    renderer = PassRenderer(builder.scene)
+    renderer = PassRenderer(builder.scene, options.persistent_data)
     channel.send(_ready())
     _silence_stdout()
+    channel.send_signs_of_life(_SIGN_OF_LIFE_S)
     for request in channel.requests():
         channel.send(_answer(request, builder, renderer))
     _leave()
@@ -44,9 +46,10 @@ def _answer(request, builder, renderer):
                              f"{SPEC_VERSION}")
         builder.build(request.spec, request.meshes, request.textures)
         built = time.perf_counter()
-        renderer.render(request.spec["render"], request.output)
+        renderer.render(request.spec["render"], request.output, request.frame_id)
         if builder.make_sharp():  # the lens disturbs all passes: labels come from a pinhole
-            renderer.render({**request.spec["render"], "samples": 1}, sharp_output(request.output))
+            renderer.render({**request.spec["render"], "samples": 1}, sharp_output(request.output),
+                            request.frame_id)
     except MemoryError:
         raise  # a fresh worker may have enough
     except Exception as error:  # one bad frame must not cost the worker
@@ -61,7 +64,10 @@ def _ready():
         blender=".".join(str(number) for number in bpy.app.version),
         build=build.decode("ascii", "replace") if isinstance(build, bytes) else str(build),
         ocio_config=_ocio_config(),
-        cpu=cpu_kernel.current(bpy.app.version),
+        kernel=cpu_kernel.current(bpy.app.version),
+        embree=cpu_kernel.embree(),
+        reciprocals=cpu_kernel.reciprocals(),
+        libc=cpu_kernel.libc(),
     )
 
 
@@ -98,6 +104,7 @@ def _parse_options():
     parser.add_argument("--read-fd", type=int, required=True)
     parser.add_argument("--write-fd", type=int, required=True)
     parser.add_argument("--cpus", type=lambda text: [int(cpu) for cpu in text.split(",")], required=True)
+    parser.add_argument("--persistent-data", action="store_true")
     return parser.parse_args(arguments)
 
 

@@ -149,7 +149,7 @@ FORMS = {
 
 def form_of(words):
     """The schema for a cell of the column "value"; None for a section, whose keys have rows of their own."""
-    if words in ("section", "named sections", "section, or its source"):
+    if words in ("section", "named sections", "section, or its source", "section, or its mode"):
         return None
     if words in FORMS:
         return dict(FORMS[words])
@@ -256,8 +256,8 @@ def build(keys):
         form = form_of(key.value)
         if key.value.startswith("section"):
             form = section(key.path)
-        if key.value == "section, or its source":
-            form = {"anyOf": [form, form["properties"]["source"]]}
+        if ", or its " in key.value:
+            form = {"anyOf": [form, form["properties"][key.value.rsplit(" ", 1)[-1]]]}
         elif key.value == "named sections":
             form = ref(key.path)
         return key.schema(form)

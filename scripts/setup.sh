@@ -8,13 +8,13 @@ set -eu
 cd "$(dirname "$0")/.."
 
 packages="
-  ca-certificates ccache clang-format clang-tidy cmake g++ git ninja-build pkg-config
+  bubblewrap ca-certificates ccache clang clang-format clang-tidy cmake g++ git libclang-rt-dev ninja-build pkg-config
   blender python3 python3-jsonschema python3-numpy python3-pil python3-yaml
   libarchive-dev libboost-dev libcgal-dev libcli11-dev libdraco-dev libeigen3-dev libembree-dev libexpected-dev
   libfmt-dev
   libopencolorio-dev libopenexr-dev libpng-dev libpugixml-dev librandom123-dev libsqlite3-dev
   libssl-dev libstb-dev
-  libtbb-dev libyaml-cpp-dev nlohmann-json3-dev
+  libtbb-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev"
 
 missing=""

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 namespace seedframe {
 namespace {
 
-constexpr std::size_t kIdCount = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
+constexpr std::size_t kIdCount = kLargestImageId + std::size_t{1};
 
 /// Where the run of equal ids that begins at `begin` ends, four pixels at a time.
 int end_of_run(const std::uint16_t* row, int begin, int width) {

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <unordered_map>
 
 #include "annotate/extents.h"
 
 namespace seedframe {
 namespace {
-
-constexpr int kLargestId = std::numeric_limits<std::uint16_t>::max();
 
 /// Position in spec.instances by id, or the error that two instances share one.
 Result<std::unordered_map<int, std::size_t>> positions_by_id(const FrameSpec& spec) {
@@ -76,7 +73,7 @@ Result<FrameLabels> make_labels(const FrameSpec& spec, const std::vector<std::st
 
 Image<std::uint8_t> semantic_image(const FrameSpec& spec,
                                    const Image<std::uint16_t>& instance_ids) {
-  std::vector<std::uint8_t> category_of_id(kLargestId + std::size_t{1}, 0);
+  std::vector<std::uint8_t> category_of_id(kLargestImageId + std::size_t{1}, 0);
   for (const InstanceSpec& instance : spec.instances) {
     if (instance.id == 0) continue;
     assert(instance.category >= 0 && instance.category <= 255);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,11 @@
 #include "scene/frame_spec.h"
 
 namespace seedframe {
+
+inline constexpr int kLabelsVersion = 3;
+
+/// An id image has 16 bits.
+constexpr int kLargestImageId = std::numeric_limits<std::uint16_t>::max();
 
 /// Tight box of a mask; x0 = smallest column, width = largest - smallest + 1. Pixels.
 struct PixelBox {

@@ -11,20 +11,13 @@
 namespace seedframe {
 namespace {
 
-constexpr int kVersion = 3;
 constexpr int kLargestCanvas = 3 * (1 << 20);
-constexpr int kLargestId = std::numeric_limits<std::uint16_t>::max();
 
-/// The integer in [least, most] that a value is, if it is one. A boolean or a fraction is none.
-std::optional<std::int64_t> integer_in(const Json& value, std::int64_t least, std::int64_t most) {
-  if (!value.is_number_integer()) return std::nullopt;
-  if (value.is_number_unsigned() &&
-      value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<std::int64_t>::max()}) {
-    return std::nullopt;
-  }
-  const auto number = value.get<std::int64_t>();
-  if (number < least || number > most) return std::nullopt;
-  return number;
+/// The integer in [least, most] that a value is, if it is one.
+std::optional<std::int64_t> integer_between(const Json& value, std::int64_t least,
+                                            std::int64_t most) {
+  const auto number = integer_in<std::int64_t>(value);
+  return number && *number >= least && *number <= most ? number : std::nullopt;
 }
 
 Result<std::int64_t> integer_field(const Json& object, const char* key, std::int64_t least,
@@ -33,7 +26,7 @@ Result<std::int64_t> integer_field(const Json& object, const char* key, std::int
   if (found == object.end()) {
     return fail(ErrorKind::kCorrupt, "{}: key '{}' is missing", what, key);
   }
-  const auto number = integer_in(*found, least, most);
+  const auto number = integer_between(*found, least, most);
   if (!number) {
     return fail(ErrorKind::kCorrupt, "{}: key '{}' must be an integer in {}..{}, found {}", what,
                 key, least, most, found->dump());
@@ -47,7 +40,7 @@ Result<PixelBox> box_field(const Json& object, const std::string& what) {
   const std::array<int*, 4> numbers = {&box.x, &box.y, &box.width, &box.height};
   bool valid = found != object.end() && found->is_array() && found->size() == numbers.size();
   for (std::size_t i = 0; valid && i < numbers.size(); ++i) {
-    const auto number = integer_in((*found)[i], 0, std::numeric_limits<int>::max());
+    const auto number = integer_between((*found)[i], 0, std::numeric_limits<int>::max());
     valid = number.has_value();
     if (valid) *numbers[i] = static_cast<int>(*number);
   }
@@ -146,7 +139,7 @@ Result<AmodalLabel> amodal_from_json(const Json& json, const InstanceLabel& labe
   }
   std::array<std::optional<std::int64_t>, 4> numbers;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    numbers[i] = integer_in(box[i], i < 2 ? -kLargestCanvas : 0, kLargestCanvas);
+    numbers[i] = integer_between(box[i], i < 2 ? -kLargestCanvas : 0, kLargestCanvas);
     if (!numbers[i]) {
       return fail(ErrorKind::kCorrupt, "{}: key 'box' has the number {}", what, box[i].dump());
     }
@@ -171,7 +164,7 @@ Result<std::vector<KeypointLabel>> keypoints_from_json(const Json& json, const s
   std::vector<KeypointLabel> keypoints;
   try {
     for (const Json& item : json) {
-      const int visibility = item.at("visibility").get<int>();
+      const int visibility = integer_of<int>(item.at("visibility"));
       if (visibility < 0 || visibility > 2) {
         return fail(ErrorKind::kCorrupt, "{}: a visibility must be 0, 1 or 2, found {}", what,
                     visibility);
@@ -222,7 +215,7 @@ Result<InstanceLabel> instance_from_json(const Json& json, const FrameLabels& fr
   if (!json.is_object()) {
     return fail(ErrorKind::kCorrupt, "{} must be an object, found {}", what, json.type_name());
   }
-  const auto id = integer_field(json, "id", 1, kLargestId, what);
+  const auto id = integer_field(json, "id", 1, kLargestImageId, what);
   if (!id) return forward_error(id);
   const auto category = integer_field(json, "category", 0, std::numeric_limits<int>::max(), what);
   if (!category) return forward_error(category);
@@ -265,11 +258,11 @@ Result<InstanceLabel> instance_from_json(const Json& json, const FrameLabels& fr
 Status check_version(const Json& json, const std::string& what) {
   const auto version = integer_field(json, "version", 1, std::numeric_limits<int>::max(), what);
   if (!version) return forward_error(version);
-  if (*version != kVersion) {
+  if (*version != kLabelsVersion) {
     return fail(ErrorKind::kCorrupt,
                 "{} holds labels of version {}; this program reads version {}: use the Seedframe "
                 "that wrote it, or a newer one",
-                what, *version, kVersion);
+                what, *version, kLabelsVersion);
   }
   return {};
 }
@@ -291,7 +284,7 @@ Json to_json(const FrameLabels& labels) {
     if (!label.keypoints.empty()) instance["keypoints"] = to_json(label.keypoints);
     instances.push_back(std::move(instance));
   }
-  return {{"version", kVersion},
+  return {{"version", kLabelsVersion},
           {"width", labels.width},
           {"height", labels.height},
           {"categories", labels.categories},

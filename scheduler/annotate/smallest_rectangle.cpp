@@ -56,7 +56,7 @@ std::vector<Point> convex_hull(const std::vector<Point>& points) {
   return hull;
 }
 
-struct Candidate {
+struct Rectangle {
   double area = std::numeric_limits<double>::infinity();
   std::array<std::array<double, 2>, 4> corners{};
   bool in_image = true;
@@ -64,7 +64,7 @@ struct Candidate {
 
 /// The rectangle around the hull with a side along (dx, dy). Whole numbers tell whether its corners
 /// are in the image: one that lies on its edge is.
-Candidate rectangle_along(const std::vector<Point>& hull, std::int64_t dx, std::int64_t dy,
+Rectangle rectangle_along(const std::vector<Point>& hull, std::int64_t dx, std::int64_t dy,
                           const Mask& mask) {
   std::array<std::int64_t, 2> low = {std::numeric_limits<std::int64_t>::max(),
                                      std::numeric_limits<std::int64_t>::max()};
@@ -80,7 +80,7 @@ Candidate rectangle_along(const std::vector<Point>& hull, std::int64_t dx, std::
   }
   const std::int64_t whole_squared = dx * dx + dy * dy;
   const auto squared = static_cast<double>(whole_squared);
-  Candidate candidate;
+  Rectangle candidate;
   candidate.area =
       static_cast<double>(high[0] - low[0]) * static_cast<double>(high[1] - low[1]) / squared;
   const std::array<std::array<std::int64_t, 2>, 4> ends = {
@@ -151,7 +151,7 @@ struct Corner {
 
 /// Where the image cuts off rectangles, the smallest that it leaves stands on a side of the hull,
 /// or has a corner on the edge of the image: all of these are tried.
-Candidate smallest_in_image(const std::vector<Point>& hull, const Mask& mask) {
+Rectangle smallest_in_image(const std::vector<Point>& hull, const Mask& mask) {
   const std::array<double, 2> size = {static_cast<double>(mask.image_width()),
                                       static_cast<double>(mask.image_height())};
   std::vector<double> turns;  // of the hull's sides, within a quarter
@@ -164,7 +164,7 @@ Candidate smallest_in_image(const std::vector<Point>& hull, const Mask& mask) {
   }
   std::sort(turns.begin(), turns.end());
   turns.push_back(turns.front() + kPi / 2);
-  Candidate best = rectangle_along(hull, 1, 0, mask);
+  Rectangle best = rectangle_along(hull, 1, 0, mask);
   for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
     const Supports on = supports_at(hull, (turns[i] + turns[i + 1]) / 2);
     const std::array<Corner, 4> corners = {Corner(on.low_u, on.low_v), Corner(on.high_u, on.low_v),
@@ -179,7 +179,7 @@ Candidate smallest_in_image(const std::vector<Point>& hull, const Mask& mask) {
     }
     for (const double angle : angles) {
       if (angle > turns[i + 1]) continue;
-      Candidate candidate;
+      Rectangle candidate;
       for (std::size_t k = 0; k < corners.size(); ++k) {
         candidate.corners[k] = corners[k].at(angle);
         for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -205,11 +205,11 @@ Candidate smallest_in_image(const std::vector<Point>& hull, const Mask& mask) {
 
 OrientedBox smallest_rectangle(const Mask& mask) {
   const std::vector<Point> hull = convex_hull(outermost_corners(mask));
-  Candidate best = rectangle_along(hull, 1, 0, mask);
+  Rectangle best = rectangle_along(hull, 1, 0, mask);
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Point& from = hull[i];
     const Point& to = hull[i + 1 < hull.size() ? i + 1 : 0];
-    const Candidate candidate = rectangle_along(hull, to.x - from.x, to.y - from.y, mask);
+    const Rectangle candidate = rectangle_along(hull, to.x - from.x, to.y - from.y, mask);
     if (candidate.area < best.area) best = candidate;
   }
   if (best.in_image) return {best.corners, true};

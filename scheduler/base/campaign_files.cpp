@@ -11,6 +11,10 @@ fs::path CampaignFiles::worker_log(int worker) const {
   return logs() / fmt::format("worker-{:02}.log", worker);
 }
 
+fs::path CampaignFiles::crash_log(std::int64_t frame, int attempt) const {
+  return logs() / fmt::format("crash-{}-{}.log", frame_stem(frame), attempt);
+}
+
 fs::path CampaignFiles::mesh_buffer(const std::string& sha256) const {
   return work() / "meshes" / (sha256 + ".mesh");
 }

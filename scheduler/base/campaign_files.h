@@ -17,15 +17,20 @@ class CampaignFiles {
   std::filesystem::path config() const { return root_ / "campaign.yaml"; }
   std::filesystem::path provenance() const { return root_ / "provenance.json"; }
   std::filesystem::path store() const { return root_ / "campaign.sqlite"; }
+  /// The store until every frame is in it: without its final name there is no campaign.
+  std::filesystem::path unfinished_store() const { return root_ / "campaign.sqlite.new"; }
   std::filesystem::path lock() const { return root_ / "campaign.lock"; }
   std::filesystem::path frames() const { return root_ / "frames"; }
   std::filesystem::path logs() const { return root_ / "logs"; }
   std::filesystem::path worker_log(int worker) const;
+  /// The last words of a worker that a frame has cost.
+  std::filesystem::path crash_log(std::int64_t frame, int attempt) const;
   std::filesystem::path exports() const { return root_ / "exports"; }
   /// What was rendered of a frame that is not as its twin sees it, for inspection.
   std::filesystem::path rejected(std::int64_t frame) const;
   /// Scratch space: mesh buffers for the workers and attempts under way. Gone when nothing runs.
   std::filesystem::path work() const { return root_ / "work"; }
+  std::filesystem::path disk_probe() const { return work() / "probe"; }
   std::filesystem::path mesh_buffer(const std::string& sha256) const;
   std::filesystem::path attempt(std::int64_t frame, int attempt) const;
 

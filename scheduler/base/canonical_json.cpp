@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/message_text.h"
+
 namespace seedframe {
 
 void append_canonical(std::string& out, double value) {
@@ -108,14 +110,39 @@ std::string readable_json(const Json& value) {
   return out;
 }
 
+namespace {
+
+/// Of valid JSON; of anything else some number.
+int levels_of(std::string_view text) {
+  int level = 0;
+  int most = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_text && c == '\\') ++i;
+    if (c == '"') in_text = !in_text;
+    if (in_text) continue;
+    if (c == '[' || c == '{') most = std::max(most, ++level);
+    if (c == ']' || c == '}') --level;
+  }
+  return most;
+}
+
+}  // namespace
+
 Result<Json> parse_json(std::string_view text, const std::string& what) {
+  constexpr int kMostLevels = 100;
+  if (levels_of(text) > kMostLevels) {
+    return fail(ErrorKind::kCorrupt, "{} is not valid JSON here: values in more than {} levels",
+                what, kMostLevels);
+  }
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
     std::string reason = error.what();
     const auto close = reason.find("] ");
     if (close != std::string::npos) reason.erase(0, close + 2);
-    return fail(ErrorKind::kCorrupt, "{} is not valid JSON: {}", what, reason);
+    return fail(ErrorKind::kCorrupt, "{} is not valid JSON: {}", what, shortened(reason, 300));
   }
 }
 

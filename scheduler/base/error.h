@@ -13,8 +13,9 @@ namespace seedframe {
 enum class ErrorKind {
   kInput,        ///< a config, asset, option or argument is wrong: mend it and run again
   kEnvironment,  ///< Blender, the disk or the system is not as needed
-  kCorrupt,      ///< something that Seedframe wrote is no longer what it wrote
-  kRender,       ///< a worker could not render a frame
+  kExhausted,  ///< the same, but it may pass: a disk is full or ails, memory or descriptors ran out
+  kCorrupt,    ///< something that Seedframe wrote is no longer what it wrote
+  kRender,     ///< a worker could not render a frame
 };
 
 /// A message says what was expected, what was found, where, and what to do.

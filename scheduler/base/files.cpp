@@ -1,9 +1,9 @@
 #include "base/files.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -11,11 +11,6 @@
 namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
-
-tl::unexpected<Error> system_failure(const char* action, const fs::path& path, int error) {
-  return fail(ErrorKind::kEnvironment, "cannot {} {}: {}", action, path.string(),
-              std::strerror(error));
-}
 
 /// `sync` forces an open descriptor to the disk and returns 0, or sets errno.
 Status sync_by(int (*sync)(int), const fs::path& path) {
@@ -29,7 +24,8 @@ Status sync_by(int (*sync)(int), const fs::path& path) {
 }
 
 Status write_file_and(int (*sync)(int), const fs::path& path, std::string_view bytes) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int descriptor =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
   if (descriptor < 0) return system_failure("write", path, errno);
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -50,7 +46,27 @@ Status write_file_and(int (*sync)(int), const fs::path& path, std::string_view b
 
 }  // namespace
 
-Result<std::string> read_file(const fs::path& path) {
+ErrorKind kind_of_errno(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EIO:
+    case EROFS:
+    case EMFILE:
+    case ENFILE:
+    case ENOMEM:
+      return ErrorKind::kExhausted;
+    default:
+      return ErrorKind::kEnvironment;
+  }
+}
+
+tl::unexpected<Error> system_failure(const char* action, const fs::path& path, int error) {
+  return fail(kind_of_errno(error), "cannot {} {}: {}", action, path.string(),
+              std::strerror(error));
+}
+
+Result<std::string> read_file(const fs::path& path, std::uintmax_t most) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
     return fail(ErrorKind::kEnvironment, "cannot read {}: it is a folder", path.string());
@@ -58,10 +74,21 @@ Result<std::string> read_file(const fs::path& path) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return system_failure("read", path, errno == 0 ? EIO : errno);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
+  const auto too_large = [&] {
+    return fail(ErrorKind::kInput, "{} has more than {} bytes, the most that are read of it",
+                path.string(), most);
+  };
+  std::string bytes;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!error && size > most) return too_large();
+  if (!error) bytes.reserve(size);
+  std::array<char, 1 << 16> chunk{};
+  while (stream.read(chunk.data(), chunk.size()) || stream.gcount() > 0) {
+    bytes.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
+    if (bytes.size() > most) return too_large();
+  }
   if (stream.bad()) return system_failure("read", path, EIO);
-  return std::move(bytes).str();
+  return bytes;
 }
 
 Status sync_path(const fs::path& path) { return sync_by(::fsync, path); }
@@ -80,8 +107,12 @@ Status write_file_atomically(const fs::path& path, std::string_view bytes) {
   fs::path temporary = path;
   temporary += ".tmp";
   if (Status written = write_file(temporary, bytes); !written) return written;
-  if (::rename(temporary.c_str(), path.c_str()) != 0) return system_failure("replace", path, errno);
-  return sync_path(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  return rename_file(temporary, path);
+}
+
+Status rename_file(const fs::path& from, const fs::path& to) {
+  if (::rename(from.c_str(), to.c_str()) != 0) return system_failure("replace", to, errno);
+  return sync_path(to.has_parent_path() ? to.parent_path() : fs::path("."));
 }
 
 Status replace_folder(const fs::path& temporary, const fs::path& final) {
@@ -104,10 +135,7 @@ Status commit_folder(const fs::path& temporary, const fs::path& final) {
 Status make_folders(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) {
-    return fail(ErrorKind::kEnvironment, "cannot make the folder {}: {}", path.string(),
-                error.message());
-  }
+  if (error) return system_failure("make the folder", path, error.value());
   return {};
 }
 

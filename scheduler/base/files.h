@@ -2,6 +2,7 @@
 // one.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,9 +11,23 @@
 
 namespace seedframe {
 
-Result<std::string> read_file(const std::filesystem::path& path);
+/// "cannot <action> <path>: <why>", for an errno. kExhausted when it may pass by itself or by
+/// making room: a full, failing or read-only disk, too many open files, no memory. Otherwise
+/// kEnvironment.
+tl::unexpected<Error> system_failure(const char* action, const std::filesystem::path& path,
+                                     int error);
+/// As system_failure judges it.
+ErrorKind kind_of_errno(int error);
 
-/// Writes `bytes` to `path` and forces them to the disk. Not atomic: for files inside a folder that
+/// Of a file that is read as a whole, whatever it is.
+inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{4} << 30;
+
+/// A file of more than `most` bytes is an error (kInput), also when it has no end, as a device.
+Result<std::string> read_file(const std::filesystem::path& path,
+                              std::uintmax_t most = kLargestFile);
+
+/// Writes `bytes` to `path` and forces them to the disk. A symbolic link there is an error, so that
+/// nobody can have another file overwritten. Not atomic: for files inside a folder that
 /// is itself renamed into place.
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
@@ -21,6 +36,10 @@ Status write_file_unsynced(const std::filesystem::path& path, std::string_view b
 
 /// Writes beside `path`, forces to disk and renames over it.
 Status write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// Gives a file that is on the disk another name, and forces that to the disk; a file that has the
+/// name already is replaced.
+Status rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Forces a file's contents, or a folder's entries, to the disk.
 Status sync_path(const std::filesystem::path& path);

@@ -6,11 +6,7 @@
 
 namespace seedframe {
 namespace fs = std::filesystem;
-namespace {
-
-constexpr int kVersion = 2;
-
-}  // namespace
+namespace {}  // namespace
 
 std::string Manifest::pixel_hash() const { return sha256_hex(canonical_json(pixel_hashes)); }
 
@@ -19,7 +15,7 @@ Json to_json(const Manifest& manifest) {
   for (const auto& [name, file] : manifest.files) {
     files[name] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
   }
-  return {{"version", kVersion},
+  return {{"version", kManifestVersion},
           {"frame_id", manifest.frame_id},
           {"pixels", manifest.pixel_hashes},
           {"twin",
@@ -47,18 +43,14 @@ Result<TwinTally> read_tally(const Json& manifest, const std::string& what) {
 
 }  // namespace
 
-Result<Manifest> read_manifest(const fs::path& frame_folder) {
-  const fs::path path = frame_folder / frame_files::kManifest;
-  const std::string what = path.string();
-  const Result<std::string> text = read_file(path);
-  if (!text) return fail(ErrorKind::kCorrupt, "{}", text.error().message);
-  const Result<Json> json = parse_json(*text, what);
+Result<Manifest> parse_manifest(std::string_view text, const std::string& what) {
+  const Result<Json> json = parse_json(text, what);
   if (!json) return forward_error(json);
   const Result<int> version = json_field<int>(*json, "version", what);
   if (!version) return forward_error(version);
-  if (*version != kVersion) {
+  if (*version != kManifestVersion) {
     return fail(ErrorKind::kCorrupt, "{} is of version {}; this program reads version {}", what,
-                *version, kVersion);
+                *version, kManifestVersion);
   }
   const auto frame_id = json_field<std::string>(*json, "frame_id", what);
   if (!frame_id) return forward_error(frame_id);
@@ -80,6 +72,13 @@ Result<Manifest> read_manifest(const fs::path& frame_folder) {
     manifest.files[name] = {*bytes, *sha256};
   }
   return manifest;
+}
+
+Result<Manifest> read_manifest(const fs::path& frame_folder) {
+  const fs::path path = frame_folder / frame_files::kManifest;
+  const Result<std::string> text = read_file(path);
+  if (!text) return fail(ErrorKind::kCorrupt, "{}", text.error().message);
+  return parse_manifest(*text, path.string());
 }
 
 Result<Manifest> verify_frame(const fs::path& frame_folder, const std::string& frame_id,

@@ -5,12 +5,15 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "base/canonical_json.h"
 #include "base/error.h"
 #include "base/twin_tally.h"
 
 namespace seedframe {
+
+inline constexpr int kManifestVersion = 2;
 
 struct Manifest {
   struct File {
@@ -27,6 +30,8 @@ struct Manifest {
 };
 
 Json to_json(const Manifest& manifest);
+/// Reads what to_json wrote; the error (kCorrupt) names `what`.
+Result<Manifest> parse_manifest(std::string_view text, const std::string& what);
 Result<Manifest> read_manifest(const std::filesystem::path& frame_folder);
 
 enum class VerifyDepth {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/message_text.h"
+
 namespace seedframe {
 namespace {
 
@@ -26,14 +28,18 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return previous[b.size()];
 }
 
+// Nobody mistypes a longer one, and comparing two takes the product of their lengths.
+constexpr std::size_t kLongestName = 64;
+
 }  // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-  constexpr std::size_t kLongestName = 64;
-  if (name.size() > kLongestName) return {};
+  constexpr std::size_t kMostCompared = 1000;
+  if (name.size() > kLongestName || candidates.size() > kMostCompared) return {};
   std::string best;
   std::size_t best_distance = 0;
   for (const std::string& candidate : candidates) {
+    if (candidate.size() > kLongestName) continue;
     const std::size_t distance = edit_distance(name, candidate);
     if (best.empty() || distance < best_distance) {
       best = candidate;
@@ -50,8 +56,11 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
   if (candidates.empty()) return {};
   constexpr std::size_t kMostListed = 24;
   const std::size_t shown = std::min(candidates.size(), kMostListed);
-  std::string list = fmt::format(
-      "{}", fmt::join(candidates.begin(), candidates.begin() + static_cast<long>(shown), ", "));
+  std::string list;
+  for (std::size_t i = 0; i < shown; ++i) {
+    if (i > 0) list += ", ";
+    list += shortened(candidates[i], kLongestName);
+  }
   if (shown < candidates.size()) list += ", …";
   return fmt::format(" (there are: {})", list);
 }

@@ -1,6 +1,15 @@
 #include "campaign/campaign.h"
 
+#include <algorithm>
+#include <array>
+
+#include <tbb/parallel_for.h>
+#include <unistd.h>
+
+#include "base/clock.h"
 #include "base/files.h"
+#include "campaign/frame_fingerprint.h"
+#include "campaign/input_files.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -8,15 +17,16 @@ namespace {
 
 constexpr const char* kConfigFileKey = "config_file";  // absolute: the job store is not the dataset
 constexpr const char* kOverridesKey = "overrides";
+constexpr const char* kAllowedKey = "allowed_folders";  // a JSON list; none in older campaigns
 
 Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
-  for (const fs::path& folder : {files.root(), files.frames(), files.logs(), files.work()}) {
+  for (const fs::path& folder : {files.frames(), files.logs()}) {
     if (Status made = make_folders(folder); !made) return made;
   }
   if (Status written = write_file_atomically(files.config(), prepared.source.text); !written) {
     return written;
   }
-  Result<JobStore> store = JobStore::create(files.store());
+  Result<JobStore> store = JobStore::create(files.unfinished_store());
   if (!store) return forward_error(store);
   Json overrides = Json::array();
   for (const Override& change : prepared.source.overrides) {
@@ -26,6 +36,11 @@ Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   const std::string file = fs::absolute(prepared.source.file, error).string();
   if (Status set = store->set_meta(kConfigFileKey, file); !set) return set;
   if (Status set = store->set_meta(kOverridesKey, canonical_json(overrides)); !set) return set;
+  Json allowed = Json::array();
+  for (const fs::path& path : prepared.source.allowed.folders()) allowed.push_back(path.string());
+  if (Status set = store->set_meta(kAllowedKey, canonical_json(allowed)); !set) return set;
+  const std::string inputs = canonical_json(Json(input_stamps(prepared)));
+  if (Status set = store->set_meta(kInputsKey, inputs); !set) return set;
   std::int64_t next = 0;
   return store->add_frames([&]() -> Result<std::optional<FrameRow>> {
     if (next == prepared.expander.frame_count()) return std::nullopt;
@@ -39,25 +54,72 @@ Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   });
 }
 
+tl::unexpected<Error> not_empty(const fs::path& folder) {
+  return fail(ErrorKind::kInput, "{} is not empty: give another folder with -o", folder.string());
+}
+
+/// Removes what a submission left that was killed before its store had its name. Anything else in
+/// the folder is somebody's.
+Status clear_unfinished(const CampaignFiles& files) {
+  const fs::path store = files.unfinished_store();
+  const std::vector<fs::path> left = {files.config(),
+                                      files.config().string() + ".tmp",
+                                      store,
+                                      store.string() + "-wal",
+                                      store.string() + "-shm",
+                                      store.string() + "-journal",
+                                      files.frames(),
+                                      files.logs(),
+                                      files.lock()};
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(files.root(), error)) {
+    const bool ours = std::find(left.begin(), left.end(), entry.path()) != left.end();
+    const bool empty = !entry.is_directory() || fs::is_empty(entry.path(), error);
+    if (!ours || !empty) {
+      return not_empty(files.root());
+    }
+  }
+  for (const fs::path& path : left) {
+    if (path != files.lock()) fs::remove(path, error);
+  }
+  return {};
+}
+
 }  // namespace
 
-Result<Campaign> create_campaign(const fs::path& folder, PreparedCampaign& prepared) {
+Result<LockedCampaign> create_campaign(const fs::path& folder, PreparedCampaign& prepared) {
+  const CampaignFiles files(folder);
   std::error_code error;
   const bool existed = fs::exists(folder, error);
-  if (existed && (!fs::is_directory(folder, error) || !fs::is_empty(folder, error))) {
-    const bool is_campaign = fs::exists(CampaignFiles(folder).store(), error);
-    return fail(ErrorKind::kInput, "{} {}", folder.string(),
-                is_campaign ? "holds a campaign already: 'seedframe resume' goes on with it, or "
-                              "give another folder with -o"
-                            : "is not empty: give another folder with -o");
+  if (existed && !fs::is_directory(folder, error)) {
+    return fail(ErrorKind::kInput, "{} is no folder: give another one with -o", folder.string());
   }
-  const CampaignFiles files(folder);
-  if (Status written = write_campaign(files, prepared); !written) {
+  // Every submission makes its lock first: without one, whatever is there is somebody else's.
+  if (existed && !fs::is_empty(folder, error) && !fs::exists(files.lock(), error)) {
+    return not_empty(folder);
+  }
+  const auto not_possible = [&](const Error& cause) {
     if (!existed) fs::remove_all(folder, error);
     // The user chose this place, so it is for the user to mend.
-    return tl::unexpected(Error{ErrorKind::kInput, written.error().message});
+    const bool full = cause.kind == ErrorKind::kExhausted;
+    return tl::unexpected(Error{full ? cause.kind : ErrorKind::kInput, cause.message});
+  };
+  if (Status made = make_folders(folder); !made) return not_possible(made.error());
+  Result<CampaignLock> lock = CampaignLock::acquire(files.lock());
+  if (!lock) return forward_error(lock);
+  if (fs::exists(files.store(), error)) {
+    return fail(ErrorKind::kInput,
+                "{} holds a campaign already: 'seedframe resume' goes on with it, or give another "
+                "folder with -o",
+                folder.string());
   }
-  return open_campaign(folder);
+  if (Status cleared = clear_unfinished(files); !cleared) return forward_error(cleared);
+  Status made = write_campaign(files, prepared);
+  if (made) made = rename_file(files.unfinished_store(), files.store());
+  if (!made) return not_possible(made.error());
+  Result<Campaign> campaign = open_campaign(folder);
+  if (!campaign) return forward_error(campaign);
+  return LockedCampaign{std::move(*campaign), std::move(*lock)};
 }
 
 Result<Campaign> open_campaign(const fs::path& folder) {
@@ -67,7 +129,8 @@ Result<Campaign> open_campaign(const fs::path& folder) {
   return Campaign{files, std::move(*store)};
 }
 
-Result<CampaignSource> source_of(const Campaign& campaign, const fs::path& home) {
+Result<CampaignSource> source_of(const Campaign& campaign, const fs::path& home,
+                                 const std::vector<std::string>& allowed) {
   const Result<std::string> text = read_file(campaign.files.config());
   if (!text) return forward_error(text);
   const Result<std::string> file = campaign.store.meta(kConfigFileKey);
@@ -85,52 +148,133 @@ Result<CampaignSource> source_of(const Campaign& campaign, const fs::path& home)
     if (!value) return forward_error(value);
     source.overrides.push_back({*path, *value});
   }
+  const Result<std::string> folders = campaign.store.meta(kAllowedKey);
+  if (!folders) return forward_error(folders);
+  const Result<Json> remembered = parse_json(folders->empty() ? "[]" : *folders, what);
+  if (!remembered) return forward_error(remembered);
+  for (const Json& folder : *remembered) {
+    if (folder.is_string()) source.allowed.add(folder.get<std::string>());
+  }
+  for (const std::string& folder : allowed) source.allowed.add(folder);
   return source;
 }
 
-Result<Reconciliation> reconcile(Campaign& campaign, VerifyDepth depth) {
-  std::error_code error;
-  fs::remove_all(campaign.files.work(), error);
-  if (Status reset = campaign.store.reset_running(); !reset) return forward_error(reset);
-  Reconciliation result;
-  std::vector<std::pair<std::int64_t, Manifest>> adopted;
+Result<PreparedCampaign> prepare_again(const Campaign& campaign, const fs::path& home,
+                                       const std::vector<std::string>& allowed) {
+  Result<CampaignSource> source = source_of(campaign, home, allowed);
+  if (!source) return forward_error(source);
+  Result<PreparedCampaign> prepared = prepare(std::move(*source));
+  if (prepared) return prepared;
+  return tl::unexpected(
+      Error{prepared.error().kind,
+            fmt::format("{}\n(the text is that of {}, the campaign's copy)",
+                        prepared.error().message, campaign.files.config().string())});
+}
+
+Status begin_run(Campaign& campaign) {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return campaign.store.begin_run(unix_time(), host.data(), ::getpid());
+}
+
+namespace {
+
+/// What reconcile has to change in the store, found while reading it.
+struct Changes {
+  std::vector<std::pair<std::int64_t, FrameResult>> adopted;
+  std::vector<std::pair<std::int64_t, std::string>> fingerprints;
   std::vector<std::int64_t> invalid;
-  const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
-    const fs::path folder = campaign.files.frame(row.frame);
-    const bool done = row.state == FrameState::kDone;
-    const bool there = done || fs::exists(folder, error);
-    if (there) {
-      // What the store did not see being committed is believed only after reading all of it.
-      const auto manifest =
-          verify_frame(folder, row.frame_id, done ? depth : VerifyDepth::kContents);
-      const bool same = manifest && (!done || manifest->pixel_hash() == row.pixel_hash);
-      if (same && done) {
-        ++result.already_done;
-        return {};
-      }
-      if (same) {
-        adopted.emplace_back(row.frame, *manifest);
-        return {};
-      }
-      if (done) {
-        result.invalid.push_back(manifest ? folder.string() + ": its pixel hash is not the store's"
-                                          : manifest.error().message);
-        invalid.push_back(row.frame);
-      }
+};
+
+FrameResult result_of(const Manifest& manifest, std::string fingerprint) {
+  return {manifest.pixel_hash(), std::move(fingerprint), manifest.twin};
+}
+
+/// Whether a frame that the store calls done is so.
+bool is_still_done(const FrameRow& row, const fs::path& folder, const std::string& fingerprint,
+                   bool verify, Changes& changes, Reconciliation& result) {
+  const bool untouched = !fingerprint.empty() && fingerprint == row.fingerprint;
+  if (untouched && !verify) return true;
+  const Result<Manifest> manifest = verify_frame(folder, row.frame_id, VerifyDepth::kContents);
+  if (manifest && manifest->pixel_hash() == row.pixel_hash) {
+    if (!untouched) changes.fingerprints.emplace_back(row.frame, fingerprint);
+    return true;
+  }
+  result.invalid.push_back(manifest ? folder.string() + ": its pixel hash is not the store's"
+                                    : manifest.error().message);
+  changes.invalid.push_back(row.frame);
+  return false;
+}
+
+/// `fingerprint` is of the frame's folder, empty if there is none.
+void reconcile_frame(const FrameRow& row, const fs::path& folder, const std::string& fingerprint,
+                     bool verify, Changes& changes, Reconciliation& result) {
+  if (row.state == FrameState::kDone) {
+    if (is_still_done(row, folder, fingerprint, verify, changes, result)) {
+      ++result.already_done;
+      return;
     }
-    result.to_render.push_back({row.frame, row.attempts});
+  } else if (!fingerprint.empty()) {
+    // What the store did not see being committed is believed only after reading all of it.
+    const auto manifest = verify_frame(folder, row.frame_id, VerifyDepth::kContents);
+    if (manifest) {
+      changes.adopted.emplace_back(row.frame, result_of(*manifest, fingerprint));
+      return;
+    }
+  }
+  if (row.state == FrameState::kQuarantined) {
+    ++result.quarantined;
+  } else {
+    result.to_render.push_back({row.frame, row.attempts, row.crashes});
+  }
+}
+
+Status apply(const Changes& changes, JobStore& store) {
+  return store.write_together(JobStore::Sync::kNow, [&]() -> Status {
+    for (const auto& [frame, result] : changes.adopted) {
+      if (Status done = store.adopt(frame, result); !done) return done;
+    }
+    for (const auto& [frame, fingerprint] : changes.fingerprints) {
+      if (Status done = store.set_fingerprint(frame, fingerprint); !done) return done;
+    }
+    for (const std::int64_t frame : changes.invalid) {
+      if (Status done = store.reset(frame); !done) return done;
+    }
     return {};
   });
-  if (!visited) return forward_error(visited);
-  for (const auto& [frame, manifest] : adopted) {
-    const Status done = campaign.store.adopt(frame, manifest.pixel_hash(), manifest.twin);
-    if (!done) return forward_error(done);
+}
+
+}  // namespace
+
+Result<Reconciliation> reconcile(Campaign& campaign, bool verify) {
+  std::error_code error;
+  fs::remove_all(campaign.files.work(), error);
+  Reconciliation result;
+  Changes changes;
+  constexpr int kBatch = 4096;
+  std::vector<std::string> fingerprints(kBatch);
+  for (std::int64_t first = 0;;) {
+    const auto rows = campaign.store.frames_from(first, kBatch);
+    if (!rows) return forward_error(rows);
+    if (rows->empty()) break;
+    // Looking at a million small files is what takes the time.
+    tbb::parallel_for(std::size_t{0}, rows->size(), [&](std::size_t i) {
+      fingerprints[i] = frame_fingerprint(campaign.files.frame((*rows)[i].frame));
+    });
+    for (std::size_t i = 0; i < rows->size(); ++i) {
+      const FrameRow& row = (*rows)[i];
+      reconcile_frame(row, campaign.files.frame(row.frame), fingerprints[i], verify, changes,
+                      result);
+    }
+    first = rows->back().frame + 1;
   }
-  for (const std::int64_t frame : invalid) {
-    if (Status done = campaign.store.reset(frame); !done) return forward_error(done);
-  }
-  result.adopted = static_cast<std::int64_t>(adopted.size());
+  if (Status applied = apply(changes, campaign.store); !applied) return forward_error(applied);
+  result.adopted = static_cast<std::int64_t>(changes.adopted.size());
   return result;
+}
+
+std::string command_to_reproduce(const fs::path& folder, std::int64_t frame) {
+  return fmt::format("seedframe resume {} --frame {} --workers 1", folder.string(), frame);
 }
 
 }  // namespace seedframe

@@ -19,28 +19,55 @@ struct Campaign {
   JobStore store;
 };
 
-/// Makes the folder, campaign.yaml and the store with every frame pending. The folder must not
-/// exist, or be empty (kInput). Every frame is expanded on its way into the store, so memory does
-/// not grow with their number; a folder that was made here goes again when something fails.
-Result<Campaign> create_campaign(const std::filesystem::path& folder, PreparedCampaign& prepared);
+/// A campaign that no other process may work on.
+struct LockedCampaign {
+  Campaign campaign;
+  CampaignLock lock;
+};
+
+/// Makes the folder, campaign.yaml and the store with every frame pending, and locks it. The folder
+/// must not exist, or be empty but for what a submission left that was killed (kInput). Every frame
+/// is expanded on its way into the store, so memory does not grow with their number. The store gets
+/// its name last: until then there is no campaign. A folder that was made here goes again when
+/// something fails.
+Result<LockedCampaign> create_campaign(const std::filesystem::path& folder,
+                                       PreparedCampaign& prepared);
+
+/// Key in the store's meta: InputStamps of the frames' identities, as JSON (input_files.h).
+inline constexpr const char* kInputsKey = "inputs";
 
 /// Opens what create_campaign made. Not a campaign, or damaged: an error that says so.
 Result<Campaign> open_campaign(const std::filesystem::path& folder);
 
 /// The source that the campaign was made from: its own campaign.yaml, and from the store the
-/// overrides and the folder at which relative paths start.
-Result<CampaignSource> source_of(const Campaign& campaign, const std::filesystem::path& home);
+/// overrides, the folder at which relative paths start, and the folders that were allowed; besides
+/// these, `allowed` are.
+Result<CampaignSource> source_of(const Campaign& campaign, const std::filesystem::path& home,
+                                 const std::vector<std::string>& allowed = {});
+
+/// prepare() of that source. Its errors tell places by the name that the config was submitted
+/// under; a line about the campaign's copy follows.
+Result<PreparedCampaign> prepare_again(const Campaign& campaign, const std::filesystem::path& home,
+                                       const std::vector<std::string>& allowed = {});
 
 struct Reconciliation {
   std::vector<PendingFrame> to_render;  ///< in order
   std::int64_t already_done = 0;
-  std::int64_t adopted = 0;          ///< complete on disk though the store did not know
+  std::int64_t adopted = 0;  ///< complete on disk though the store did not know
+  std::int64_t quarantined = 0;
   std::vector<std::string> invalid;  ///< why frames that were done must be rendered again
 };
 
-/// Makes store and disk agree, as a scheduler does when it starts: what is done and verified stays,
-/// what lies complete in its final folder is taken over, all else is to be rendered; scratch
-/// folders are removed.
-Result<Reconciliation> reconcile(Campaign& campaign, VerifyDepth depth);
+/// From here on the campaign is ours (JobStore::begin_run).
+Status begin_run(Campaign& campaign);
+
+/// Makes store and disk agree, as a scheduler does when it starts: what is done and untouched
+/// (frame_fingerprint.h) stays, what lies complete in its final folder is taken over, all else is
+/// to be rendered, but for frames in quarantine; scratch folders are removed. With `verify`, every
+/// file is read, however untouched it looks.
+Result<Reconciliation> reconcile(Campaign& campaign, bool verify);
+
+/// "seedframe resume DIR --frame N --workers 1".
+std::string command_to_reproduce(const std::filesystem::path& folder, std::int64_t frame);
 
 }  // namespace seedframe

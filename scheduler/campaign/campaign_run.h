@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -17,8 +18,15 @@ struct RunOptions {
   std::filesystem::path scripts;  ///< blender_scripts/
   int workers = 1;                ///< Blender processes; without Blender threads
   int threads = 1;                ///< of each worker
-  int max_attempts = 3;
+  WorkerConditions conditions;
+  std::filesystem::path preload;  ///< see environment_of
+  AttemptLimits attempts;
   std::chrono::milliseconds frame_timeout = std::chrono::seconds(600);
+  std::chrono::milliseconds heartbeat_timeout = std::chrono::seconds(120);
+  int frames_per_worker = 0;             ///< 0: a worker is never worn out
+  std::int64_t worker_memory_bytes = 0;  ///< a larger one is replaced; 0: none is
+  bool sandbox = false;                  ///< see sandbox.h
+  std::uint64_t frame_bytes = 0;         ///< that a frame takes on the disk, about
 };
 
 /// What a run tells while it runs; called from its own threads, one at a time.
@@ -26,7 +34,9 @@ class RunObserver {
  public:
   virtual ~RunObserver() = default;
   virtual void frame_done(std::int64_t frame) = 0;
-  virtual void attempt_failed(const FrameJob& job, const std::string& message, bool final) = 0;
+  virtual void attempt_failed(const FrameJob& job, const AttemptFailure& failure) = 0;
+  /// Something that the user should know, in a sentence.
+  virtual void noted(const std::string& text) = 0;
 };
 
 class CampaignRun {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <pthread.h>
+
 namespace seedframe {
 
 FinishQueue::FinishQueue(int threads) {
@@ -26,6 +28,7 @@ void FinishQueue::push(std::function<void()> job) {
 }
 
 void FinishQueue::work() {
+  pthread_setname_np(pthread_self(), "finish");  // for whoever looks at what costs time
   while (true) {
     std::function<void()> job;
     {

@@ -20,8 +20,10 @@ namespace {
 constexpr const char* kRenderedPasses = "rendered.exr";
 constexpr const char* kSharpPasses = "rendered.exr.sharp";
 
-PassExpectation expectation(const FrameSpec& spec) {
+PassExpectation expectation(const FinishTask& task) {
+  const FrameSpec& spec = task.spec;
   PassExpectation expected;
+  expected.frame_id = task.frame_id;
   expected.width = spec.render.width;
   expected.height = spec.render.height;
   expected.depth = spec.render.depth;
@@ -35,7 +37,7 @@ PassExpectation expectation(const FrameSpec& spec) {
 /// The passes of a frame. Depth of field disturbs all but the picture, so then the worker renders
 /// the rest once more without it.
 Result<FramePasses> read_frame_passes(const FinishTask& task) {
-  const PassExpectation expected = expectation(task.spec);
+  const PassExpectation expected = expectation(task);
   Result<FramePasses> passes = read_passes(rendered_passes(task.attempt_folder), expected);
   if (!passes || task.spec.camera.aperture_radius_m == 0.0) return passes;
   Result<FramePasses> sharp = read_passes(task.attempt_folder / kSharpPasses, expected);

@@ -6,10 +6,11 @@
 namespace seedframe {
 namespace fs = std::filesystem;
 
-LabelRun::LabelRun(Campaign& campaign, PreparedCampaign& prepared, const RunOptions& options,
-                   RunObserver& observer)
+LabelRun::LabelRun(Campaign& campaign, PreparedCampaign& prepared, Provenance& provenance,
+                   const RunOptions& options, RunObserver& observer)
     : campaign_(campaign),
       prepared_(prepared),
+      provenance_(provenance),
       observer_(observer),
       frames_at_once_(options.workers),
       finisher_(prepared.config, options.threads),
@@ -25,6 +26,9 @@ LabelRun::~LabelRun() {
 
 Result<RunSummary> LabelRun::run(const std::vector<PendingFrame>& frames) {
   if (Status made = prepare_folders(); !made) return forward_error(made);
+  Result<std::string> made_with = provenance_.of_twin();
+  if (!made_with) return forward_error(made_with);
+  made_with_ = std::move(*made_with);
   std::int64_t begun = 0;
   for (const PendingFrame& pending : frames) {
     if (drained_) break;
@@ -53,7 +57,7 @@ void LabelRun::begin(const FrameJob& job) {
     changed_.wait(lock, [this] { return under_way_ < 2 * frames_at_once_; });
     ++under_way_;
   }
-  writer_->push(AttemptStarted{job, 0, unix_time()});
+  writer_->push(AttemptStarted{job, 0, unix_time(), made_with_});
   Result<ExpandedFrame> expanded = prepared_.expander.expand(job.frame);
   const fs::path folder = campaign_.files.attempt(job.frame, job.attempt);
   const Status made = expanded ? make_folders(folder) : Status(forward_error(expanded));
@@ -82,8 +86,11 @@ void LabelRun::finish(const FrameJob& job, const FinishTask& task) {
 }
 
 void LabelRun::give_up(const FrameJob& job, const Error& error) {
-  if (error.kind != ErrorKind::kEnvironment) {  // the same would come of every further attempt
-    writer_->push(AttemptFailed{job, error.message, true});
+  const bool of_the_system =
+      error.kind == ErrorKind::kEnvironment || error.kind == ErrorKind::kExhausted;
+  if (!of_the_system) {  // the same would come of every further attempt
+    writer_->push(
+        AttemptFailed{job, {Failure::kAnswered, Consequence::kFailed, error.message, {}}});
     return;
   }
   const std::lock_guard lock(mutex_);
@@ -97,7 +104,7 @@ void LabelRun::written(const StoreEvent& event, const Status& status) {
   const auto* finished = std::get_if<FrameFinished>(&event);
   const auto* failed = std::get_if<AttemptFailed>(&event);
   if (finished != nullptr && status) observer_.frame_done(finished->job.frame);
-  if (failed != nullptr) observer_.attempt_failed(failed->job, failed->message, failed->final);
+  if (failed != nullptr) observer_.attempt_failed(failed->job, failed->failure);
   const std::lock_guard lock(mutex_);
   if (!status) {
     if (error_) error_ = status;

@@ -11,6 +11,7 @@
 #include "campaign/campaign_run.h"
 #include "campaign/finish_queue.h"
 #include "campaign/frame_finisher.h"
+#include "campaign/provenance.h"
 #include "campaign/store_writer.h"
 
 namespace seedframe {
@@ -19,8 +20,8 @@ class LabelRun : public CampaignRun {
  public:
   /// Of the options, `workers` says how many frames are traced at once, and `threads` on how many
   /// threads each.
-  LabelRun(Campaign& campaign, PreparedCampaign& prepared, const RunOptions& options,
-           RunObserver& observer);
+  LabelRun(Campaign& campaign, PreparedCampaign& prepared, Provenance& provenance,
+           const RunOptions& options, RunObserver& observer);
   ~LabelRun() override;
 
   Result<RunSummary> run(const std::vector<PendingFrame>& frames) override;
@@ -37,6 +38,8 @@ class LabelRun : public CampaignRun {
 
   Campaign& campaign_;
   PreparedCampaign& prepared_;
+  Provenance& provenance_;
+  std::string made_with_;  ///< provenance of every attempt
   RunObserver& observer_;
   int frames_at_once_;
   FrameFinisher finisher_;

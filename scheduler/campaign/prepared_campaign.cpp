@@ -3,38 +3,46 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "config/config_text.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
 
 Result<CampaignSource> read_source(const fs::path& file, const std::vector<Override>& overrides,
-                                   const fs::path& home) {
-  Result<std::string> text = read_file(file);
+                                   const fs::path& home, const std::vector<std::string>& allowed) {
+  Result<std::string> text = read_file(file, kLargestConfig);
   if (!text) return fail(ErrorKind::kInput, "{}", text.error().message);
-  constexpr std::size_t kLargestConfig = 16u << 20;
-  if (text->size() > kLargestConfig) {
-    return fail(ErrorKind::kInput, "{} has {} bytes; a config may have {}", file.string(),
-                text->size(), kLargestConfig);
-  }
-  return CampaignSource{std::move(*text), file, overrides, home};
+  AllowedFolders folders({file.parent_path(), ".", "/usr/share"});
+  for (const std::string& folder : allowed) folders.add(folder);
+  return CampaignSource{std::move(*text), file, overrides, home, std::move(folders)};
 }
 
 Result<PreparedCampaign> prepare(CampaignSource source) {
-  Result<CampaignConfig> config = read_campaign_config(source.text, source.file, source.overrides);
+  AllowedFolders allowed = source.allowed;
+  allowed.add(source.home);
+  Result<CampaignConfig> config =
+      read_campaign_config(source.text, source.file, source.overrides, allowed);
   if (!config) return forward_error(config);
   std::vector<fs::path> asset_folders = config->asset_folders;
   asset_folders.push_back(source.home / "assets");
   std::vector<fs::path> material_folders = config->material_folders;
   material_folders.push_back(source.home / "materials");
-  Result<AssetLibrary> assets = AssetLibrary::open(asset_folders);
+  Result<AssetLibrary> assets = AssetLibrary::open(asset_folders, allowed);
   if (!assets) return forward_error(assets);
-  Result<MaterialLibrary> materials = MaterialLibrary::open(material_folders, config->materials);
+  Result<MaterialLibrary> materials =
+      MaterialLibrary::open(material_folders, config->materials, allowed);
   if (!materials) return forward_error(materials);
   std::optional<Graphs> graphs;
   if (config->graphs) {
     Result<Graphs> opened = Graphs::open(*config->graphs);
     if (!opened) return forward_error(opened);
     config->scenes = opened->size();
+    if (config->frame_count() > kMostFrames) {
+      return fail(ErrorKind::kInput,
+                  "{} has {} scenes: with {} frames each, the campaign has more "
+                  "than {}",
+                  config->graphs->string(), config->scenes, config->frames_per_scene, kMostFrames);
+    }
     graphs = std::move(*opened);
   }
   Result<SceneExpander> expander =

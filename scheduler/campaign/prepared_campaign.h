@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/allowed_folders.h"
 #include "base/error.h"
 #include "config/campaign_config.h"
 #include "scene/expander.h"
@@ -18,11 +19,15 @@ struct CampaignSource {
   std::filesystem::path file;       ///< as the user gave it; relative paths start at its folder
   std::vector<Override> overrides;  ///< of --set
   std::filesystem::path home;       ///< where the built-in assets/ and materials/ are
+  /// Besides the folder of `file`, and `home`.
+  AllowedFolders allowed = {};
 };
 
+/// Allows the working directory, /usr/share (for colour configs) and `allowed`.
 Result<CampaignSource> read_source(const std::filesystem::path& file,
                                    const std::vector<Override>& overrides,
-                                   const std::filesystem::path& home);
+                                   const std::filesystem::path& home,
+                                   const std::vector<std::string>& allowed = {});
 
 struct PreparedCampaign {
   CampaignSource source;

@@ -11,39 +11,68 @@
 #include <png.h>
 #include <sqlite3.h>
 
+#include "annotate/labels.h"
 #include "base/files.h"
+#include "base/manifest.h"
 #include "base/sha256.h"
 #include "geometry/ray_mesh.h"
 
 namespace seedframe {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 /// Keeps what earlier runs of the campaign saw: this one may have looked at a few frames only.
-Status merge(const Json& earlier, const std::string& what, Json& json) {
-  const auto ocio = json_field<std::string>(earlier, "ocio_config_sha256", what);
-  if (!ocio) return forward_error(ocio);
-  if (*ocio != json["ocio_config_sha256"]) {
-    return fail(ErrorKind::kInput,
-                "{}: the OpenColorIO config is not the one that the campaign's images were made "
-                "with (SHA-256 {}…): set image.ocio_config to that one, or submit a new campaign",
-                what, ocio->substr(0, 12));
-  }
+Status merge(const Json& earlier, const std::string& what, const std::string& ocio_hash,
+             Json& json) {
   for (const char* table : {"assets", "textures"}) {
     const auto before = json_field<std::map<std::string, std::string>>(earlier, table, what);
     if (!before) return forward_error(before);
     for (const auto& [name, sha256] : *before) json[table].emplace(name, sha256);
   }
-  const auto workers = json_field<std::vector<Json>>(earlier, "workers", what);
-  if (!workers) return forward_error(workers);
-  json["workers"] = *workers;
-  const auto isas = json_field<std::vector<std::string>>(earlier, "twin_isa", what);
-  if (!isas) return forward_error(isas);
-  for (const std::string& isa : *isas) {
-    if (isa != json["twin_isa"][0]) json["twin_isa"].push_back(isa);
+  const auto attempts = json_field<std::vector<Json>>(earlier, "attempts", what);
+  if (!attempts) return forward_error(attempts);
+  for (const Json& attempt : *attempts) {
+    const auto ocio = json_field<std::string>(attempt, "ocio_config_sha256", what);
+    if (!ocio) return forward_error(ocio);
+    if (*ocio == ocio_hash) continue;
+    return fail(ErrorKind::kInput,
+                "{}: the OpenColorIO config is not the one that the campaign's images were made "
+                "with (SHA-256 {}…): set image.ocio_config to that one, or submit a new campaign",
+                what, ocio->substr(0, 12));
   }
+  json["attempts"] = *attempts;
   return {};
+}
+
+/// Over the programs of a worker, by name.
+Result<std::string> hash_of_scripts(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> hashes;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".py") continue;
+    Result<std::string> hash = sha256_of_file(entry.path());
+    if (!hash) return hash;
+    hashes[entry.path().filename().string()] = std::move(*hash);
+  }
+  return sha256_hex(canonical_json(hashes));
+}
+
+/// What is the same for all attempts of a run.
+Result<Json> common_facts(const std::string& ocio_hash, const RunOptions& options) {
+  Json facts = {{"seedframe", SEEDFRAME_VERSION},  {"frame_spec", kFrameSpecVersion},
+                {"manifest", kManifestVersion},    {"labels", kLabelsVersion},
+                {"libraries", library_versions()}, {"twin_isa", ray_tracing_isa()},
+                {"ocio_config_sha256", ocio_hash}, {"threads", options.threads}};
+  if (options.blender.program.empty()) return facts;
+  const Result<std::string> program = sha256_of_file(options.blender.program);
+  if (!program) return forward_error(program);
+  const Result<std::string> scripts = hash_of_scripts(options.scripts);
+  if (!scripts) return forward_error(scripts);
+  facts["blender_sha256"] = *program;
+  facts["scripts_sha256"] = *scripts;
+  facts["persistent_data"] = options.conditions.persistent_data;
+  return facts;
 }
 
 }  // namespace
@@ -57,7 +86,7 @@ Json library_versions() {
 }
 
 Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCampaign& prepared,
-                                    const std::string& ocio_hash) {
+                                    const std::string& ocio_hash, const RunOptions& options) {
   Json overrides = Json::array();
   for (const Override& change : prepared.source.overrides) {
     overrides.push_back(change.path + "=" + change.value);
@@ -67,37 +96,77 @@ Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCa
     textures[file.parent_path().filename().string() + "/" + file.filename().string()] = sha256;
   }
   Json json = {{"version", kVersion},
-               {"seedframe", SEEDFRAME_VERSION},
                {"config_sha256", sha256_hex(prepared.source.text)},
                {"overrides", overrides},
                {"seed", prepared.config.seed},
                {"assets", prepared.expander.asset_hashes()},
                {"textures", textures},
-               {"ocio_config_sha256", ocio_hash},
-               {"libraries", library_versions()},
-               {"twin_isa", {ray_tracing_isa()}},
-               {"workers", Json::array()}};
+               {"attempts", Json::array()}};
   std::error_code error;
   if (std::filesystem::exists(files.provenance(), error)) {
+    const std::string what = files.provenance().string();
     const Result<std::string> text = read_file(files.provenance());
     if (!text) return forward_error(text);
-    const Result<Json> earlier = parse_json(*text, files.provenance().string());
+    const Result<Json> earlier = parse_json(*text, what);
     if (!earlier) return forward_error(earlier);
-    if (Status merged = merge(*earlier, files.provenance().string(), json); !merged) {
+    if (Status merged = merge(*earlier, what, ocio_hash, json); !merged) {
       return forward_error(merged);
     }
   }
-  return Provenance(files.provenance(), std::move(json));
+  Result<Json> common = common_facts(ocio_hash, options);
+  if (!common) return forward_error(common);
+  return Provenance(files.provenance(), std::move(json), std::move(*common));
 }
 
-Status Provenance::add_worker(const ReadyMessage& ready) {
-  Json worker = {{"blender", ready.blender}, {"build", ready.build}, {"cpu", ready.cpu}};
-  Json& workers = json_["workers"];
-  if (std::find(workers.begin(), workers.end(), worker) != workers.end()) return {};
-  workers.push_back(std::move(worker));
-  return write();
+Result<std::string> Provenance::of_worker(const ReadyMessage& ready) {
+  Json attempt = common_;
+  attempt["blender"] = ready.blender;
+  attempt["build"] = ready.build;
+  attempt["kernel"] = ready.kernel;
+  attempt["embree"] = ready.embree;
+  attempt["reciprocals"] = ready.reciprocals;
+  attempt["libc"] = ready.libc;
+  return add(std::move(attempt));
+}
+
+Result<std::string> Provenance::of_twin() { return add(common_); }
+
+Result<std::string> Provenance::add(Json attempt) {
+  std::string text = canonical_json(attempt);
+  Json& attempts = json_["attempts"];
+  if (std::find(attempts.begin(), attempts.end(), attempt) != attempts.end()) return text;
+  attempts.push_back(std::move(attempt));
+  if (Status written = write(); !written) return forward_error(written);
+  return text;
+}
+
+std::string Provenance::departure(const std::string& attempt) const {
+  const Json now = Json::parse(attempt);
+  std::string difference;
+  for (const Json& before : earlier_) {
+    difference = describe_difference(now, before);
+    if (difference.empty()) return {};
+  }
+  if (difference.empty()) return {};
+  return fmt::format(
+      "this run renders with {}, as no earlier run of the campaign: the same frame could get other "
+      "pixels (docs/determinism.md); 'seedframe explain' tells what made a frame",
+      difference);
 }
 
 Status Provenance::write() const { return write_file_atomically(path_, readable_json(json_)); }
+
+std::string describe_difference(const Json& found, const Json& expected) {
+  std::vector<std::string> differences;
+  for (const auto& [key, value] : expected.items()) {
+    const Json other = found.contains(key) ? found[key] : Json();
+    if (other == value || key == "threads") continue;
+    const auto text = [](const Json& each) {
+      return each.is_string() ? each.get<std::string>().substr(0, 16) : each.dump();
+    };
+    differences.push_back(fmt::format("{} {} instead of {}", key, text(other), text(value)));
+  }
+  return fmt::format("{}", fmt::join(differences, ", "));
+}
 
 }  // namespace seedframe

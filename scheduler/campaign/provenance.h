@@ -1,10 +1,14 @@
-// provenance.json: with what a campaign was rendered. No time, host or absolute path.
+// With what frames were made. Of an attempt: all that may decide over its pixels beside the frame
+// spec. Of a campaign, provenance.json: its inputs, and what its attempts were made with. No time,
+// host or absolute path (docs/formats/campaign.md).
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "base/error.h"
 #include "campaign/campaign.h"
+#include "campaign/campaign_run.h"
 #include "render/message.h"
 
 namespace seedframe {
@@ -14,20 +18,35 @@ Json library_versions();
 
 class Provenance {
  public:
-  /// Starts from what an earlier run wrote, if there is any.
+  /// Starts from what an earlier run wrote, if there is any. `ocio_hash` is empty when there are no
+  /// images.
   static Result<Provenance> load(const CampaignFiles& files, const PreparedCampaign& prepared,
-                                 const std::string& ocio_hash);
+                                 const std::string& ocio_hash, const RunOptions& options);
 
-  /// Each distinct kind of worker is listed once.
-  Status add_worker(const ReadyMessage& ready);
+  /// Of attempts of this worker: canonical JSON. It goes into provenance.json if it is new.
+  Result<std::string> of_worker(const ReadyMessage& ready);
+  /// A sentence, if the campaign's earlier runs were made with others, so that pixels may differ.
+  std::string departure(const std::string& attempt) const;
+  /// Of attempts without a worker.
+  Result<std::string> of_twin();
   Status write() const;
 
  private:
-  Provenance(std::filesystem::path path, Json json)
-      : path_(std::move(path)), json_(std::move(json)) {}
+  Provenance(std::filesystem::path path, Json json, Json common)
+      : path_(std::move(path)),
+        json_(std::move(json)),
+        earlier_(json_["attempts"]),
+        common_(std::move(common)) {}
+  Result<std::string> add(Json attempt);
 
   std::filesystem::path path_;
   Json json_;
+  Json earlier_;  ///< attempts of earlier runs
+  Json common_;   ///< to all attempts of this run
 };
+
+/// What two provenances of attempts differ in, but for threads, which change no pixel:
+/// "kernel avx instead of avx2, …"; empty if in nothing else.
+std::string describe_difference(const Json& found, const Json& expected);
 
 }  // namespace seedframe

@@ -3,6 +3,8 @@
 #include "base/clock.h"
 #include "base/files.h"
 #include "campaign/color_config.h"
+#include "campaign/disk_space.h"
+#include "render/sandbox.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -11,6 +13,22 @@ namespace {
 // Finishing a frame takes a small share of rendering it.
 constexpr int kFinishThreads = 2;
 
+/// What no worker needs, and none gets: so that a mad one takes neither memory nor disk from the
+/// others.
+ResourceLimits worker_limits(const RunOptions& options) {
+  constexpr std::uint64_t kMostFrames = 10'000;  // of a worker that is never worn out
+  constexpr std::uint64_t kLargestFile = 16ULL << 30;
+  constexpr std::uint64_t kOpenFiles = 4096;
+  const std::uint64_t frames = options.frames_per_worker > 0
+                                   ? static_cast<std::uint64_t>(options.frames_per_worker)
+                                   : kMostFrames;
+  const auto frame_s = static_cast<std::uint64_t>(options.frame_timeout.count() / 1000 + 1);
+  return {.memory_bytes = static_cast<std::uint64_t>(system_memory_bytes()),
+          .cpu_s = (frames + 1) * frame_s * static_cast<std::uint64_t>(options.threads),
+          .file_bytes = kLargestFile,
+          .open_files = kOpenFiles};
+}
+
 PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) {
   PoolOptions pool;
   pool.blender = options.blender.program;
@@ -18,8 +36,15 @@ PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) 
   pool.log_path = [files](int worker) { return files.worker_log(worker); };
   pool.workers = options.workers;
   pool.threads = options.threads;
-  pool.max_attempts = options.max_attempts;
+  pool.conditions = options.conditions;
+  pool.preload = options.preload;
+  pool.attempts = options.attempts;
   pool.frame_timeout = options.frame_timeout;
+  pool.heartbeat_timeout = options.heartbeat_timeout;
+  pool.frames_per_worker = options.frames_per_worker;
+  pool.worker_memory_bytes = options.worker_memory_bytes;
+  pool.limits = worker_limits(options);
+  if (options.sandbox) pool.wrapper = sandbox_arguments(files.work());
   // A killed Blender leaves its temporary folder behind; here it goes with the rest of work/.
   std::error_code ignored;
   pool.environment["TMPDIR"] = fs::absolute(files.work(), ignored).string();
@@ -55,6 +80,7 @@ RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, const Color
       color_(color),
       provenance_(provenance),
       observer_(observer),
+      room_needed_(room_for_attempts(options)),
       finisher_(prepared.config, 1),  // the cores are the workers'
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
@@ -83,12 +109,17 @@ Result<RunSummary> RenderRun::run(const std::vector<PendingFrame>& frames) {
 }
 
 Result<RenderRequest> RenderRun::request(const FrameJob& job) {
+  const Result<std::uint64_t> room = free_bytes(campaign_.files.root());
+  if (room && *room < room_needed_) {
+    if (Status disk = check_disk(campaign_.files, room_needed_); !disk) return forward_error(disk);
+  }
   Result<ExpandedFrame> expanded = prepared_.expander.expand(job.frame);
   if (!expanded) return forward_error(expanded);
   const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
   if (Status made = make_folders(attempt); !made) return forward_error(made);
   RenderRequest request;
   request.spec = canonical_text(expanded->spec);
+  request.frame_id = expanded->id;
   std::error_code ignored;
   request.output = fs::absolute(rendered_passes(attempt), ignored);
   MeshBuffers buffers = prepared_.expander.mesh_buffers_of(*expanded);
@@ -124,7 +155,7 @@ Result<std::map<std::string, fs::path>> RenderRun::write_mesh_buffers(const Mesh
 }
 
 void RenderRun::started(const FrameJob& job, int worker) {
-  writer_->push(AttemptStarted{job, worker, unix_time()});
+  writer_->push(AttemptStarted{job, worker, unix_time(), provenance_of_worker_[worker]});
 }
 
 void RenderRun::rendered(const FrameJob& job, const RenderTimings& timings, int) {
@@ -153,11 +184,28 @@ void RenderRun::finish(const FrameJob& job, const RenderTimings& timings, const 
                               {timings.build_s, timings.render_s, finish_time.count()}});
 }
 
-void RenderRun::attempt_failed(const FrameJob& job, const std::string& message, bool final) {
+Status RenderRun::check_system() { return check_disk(campaign_.files, room_needed_); }
+
+void RenderRun::attempt_failed(const FrameJob& job, const AttemptFailure& failure) {
   tasks_.erase(job);
   std::error_code ignored;
   fs::remove_all(campaign_.files.attempt(job.frame, job.attempt), ignored);
-  writer_->push(AttemptFailed{job, message, final});
+  AttemptFailure told = failure;
+  if (failure.failure == Failure::kCrash) {
+    keep_crash_log(job, failure);
+    told.message += fmt::format("\nits last words are in {}",
+                                campaign_.files.crash_log(job.frame, job.attempt).string());
+  }
+  writer_->push(AttemptFailed{job, std::move(told)});
+}
+
+void RenderRun::keep_crash_log(const FrameJob& job, const AttemptFailure& failure) const {
+  // That it cannot be written must not stop a run: the message says the most important.
+  (void)write_file_unsynced(
+      campaign_.files.crash_log(job.frame, job.attempt),
+      fmt::format("frame {}, attempt {}: {}\nsee it again: {}\n\n{}\n", job.frame, job.attempt,
+                  failure.message.substr(0, failure.message.find('\n')),
+                  command_to_reproduce(campaign_.files.root(), job.frame), failure.log));
 }
 
 void RenderRun::written(const StoreEvent& event, const Status& status) {
@@ -167,12 +215,16 @@ void RenderRun::written(const StoreEvent& event, const Status& status) {
     pool_->post_verdict(finished->job, {});
   }
   if (const auto* failed = std::get_if<AttemptFailed>(&event)) {
-    observer_.attempt_failed(failed->job, failed->message, failed->final);
+    observer_.attempt_failed(failed->job, failed->failure);
   }
 }
 
-void RenderRun::worker_ready(int, const ReadyMessage& ready) {
-  keep_error(provenance_.add_worker(ready));
+void RenderRun::worker_ready(int worker, const ReadyMessage& ready) {
+  Result<std::string> text = provenance_.of_worker(ready);
+  if (!text) return keep_error(forward_error(text));
+  const std::string departure = provenance_.departure(*text);
+  if (!departure.empty() && !std::exchange(departure_noted_, true)) observer_.noted(departure);
+  provenance_of_worker_[worker] = std::move(*text);
 }
 
 void RenderRun::keep_error(const Status& status) {

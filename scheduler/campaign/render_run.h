@@ -37,7 +37,8 @@ class RenderRun : public CampaignRun, public RenderClient {
   Result<RenderRequest> request(const FrameJob& job) override;
   void started(const FrameJob& job, int worker) override;
   void rendered(const FrameJob& job, const RenderTimings& timings, int worker) override;
-  void attempt_failed(const FrameJob& job, const std::string& message, bool final) override;
+  void attempt_failed(const FrameJob& job, const AttemptFailure& failure) override;
+  Status check_system() override;
   void worker_ready(int worker, const ReadyMessage& ready) override;
 
   /// Writes those that no frame before had. Returns the files' paths by SHA-256.
@@ -47,6 +48,8 @@ class RenderRun : public CampaignRun, public RenderClient {
   void load_view_tables();
   void finish(const FrameJob& job, const RenderTimings& timings, const FinishTask& task);
   void written(const StoreEvent& event, const Status& status);
+  /// Where to look, and what to do to see it again.
+  void keep_crash_log(const FrameJob& job, const AttemptFailure& failure) const;
   /// The store failed: nothing more can be trusted, so the run ends.
   void keep_error(const Status& status);
 
@@ -55,9 +58,12 @@ class RenderRun : public CampaignRun, public RenderClient {
   const ColorManagement& color_;
   Provenance& provenance_;
   RunObserver& observer_;
+  std::uint64_t room_needed_;  ///< bytes that frames under way may still take
   FrameFinisher finisher_;
   std::map<FrameJob, FinishTask> tasks_;  ///< requested and not yet rendered
-  std::mutex mutex_;                      ///< guards error_
+  std::map<int, std::string> provenance_of_worker_;
+  bool departure_noted_ = false;
+  std::mutex mutex_;  ///< guards error_
   Status error_;
   std::unique_ptr<StoreWriter> writer_;  ///< the only one to use the store and the observer
   std::unique_ptr<FinishQueue> queue_;

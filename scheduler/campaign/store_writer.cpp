@@ -3,26 +3,33 @@
 #include <algorithm>
 #include <utility>
 
+#include <pthread.h>
+
 #include "base/files.h"
+#include "campaign/frame_fingerprint.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
 
-struct WriteRow {
-  JobStore& store;
+FrameState next_state(Consequence consequence) {
+  switch (consequence) {
+    case Consequence::kFailed:
+      return FrameState::kFailed;
+    case Consequence::kQuarantined:
+      return FrameState::kQuarantined;
+    case Consequence::kRetry:
+      break;
+  }
+  return FrameState::kPending;
+}
 
-  Status operator()(const AttemptStarted& event) const {
-    return store.attempt_started(event.job.frame, event.job.attempt, event.worker, event.unix_time);
-  }
-  Status operator()(const AttemptFailed& event) const {
-    return store.attempt_failed(event.job.frame, event.job.attempt, event.message, event.final);
-  }
-  Status operator()(const FrameFinished& event) const {
-    return store.frame_done(event.job.frame, event.job.attempt, event.pixel_hash, event.twin,
-                            event.timings);
-  }
-};
+Status write_failure(JobStore& store, const AttemptFailed& event) {
+  const auto outcome =
+      event.failure.failure == Failure::kCrash ? AttemptOutcome::kCrash : AttemptOutcome::kError;
+  return store.attempt_failed(event.job.frame, event.job.attempt, outcome,
+                              next_state(event.failure.consequence), event.failure.message);
+}
 
 }  // namespace
 
@@ -50,6 +57,7 @@ void StoreWriter::push(StoreEvent event) {
 }
 
 void StoreWriter::work() {
+  pthread_setname_np(pthread_self(), "store");  // for whoever looks at what costs time
   while (true) {
     std::vector<StoreEvent> events;
     {
@@ -64,38 +72,59 @@ void StoreWriter::work() {
 }
 
 Status StoreWriter::write(const std::vector<StoreEvent>& events) {
-  bool any_finished = false;
-  for (const StoreEvent& event : events) {
-    const auto* finished = std::get_if<FrameFinished>(&event);
-    if (finished == nullptr) continue;
-    if (Status placed = put_into_place(finished->job); !placed) return placed;
-    any_finished = true;
-  }
-  // After the renames, so that one wait is for them too. Should the power fail before it, resume
-  // finds a folder without a row, and believes it only after comparing it with its manifest.
-  if (any_finished) {
-    if (Status synced = sync_filesystem(files_.frames()); !synced) return synced;
-  }
   // That an attempt began is lost with the attempt itself: not worth a wait.
   const bool only_started = std::all_of(events.begin(), events.end(), [](const StoreEvent& event) {
     return std::holds_alternative<AttemptStarted>(event);
   });
   const auto sync = only_started ? JobStore::Sync::kLater : JobStore::Sync::kNow;
-  return store_.write_together(sync, [&]() -> Status {
-    for (const StoreEvent& event : events) {
-      if (Status row = std::visit(WriteRow{store_}, event); !row) return row;
-    }
-    return {};
-  });
+  // The renames are inside the transaction: nobody can take the campaign over between the question
+  // whether an attempt may commit and its commit.
+  return store_.write_together(sync, [&] { return write_rows(events); });
 }
 
-Status StoreWriter::put_into_place(const FrameJob& job) const {
+Status StoreWriter::write_rows(const std::vector<StoreEvent>& events) {
+  bool any_finished = false;
+  for (const StoreEvent& event : events) {
+    if (const auto* started = std::get_if<AttemptStarted>(&event)) {
+      const auto& [job, worker, unix_time, provenance] = *started;
+      Status row = store_.attempt_started(job.frame, job.attempt, worker, unix_time, provenance);
+      if (!row) return row;
+    } else if (const auto* failed = std::get_if<AttemptFailed>(&event)) {
+      if (Status row = write_failure(store_, *failed); !row) return row;
+    } else {
+      const Result<bool> committed = commit(std::get<FrameFinished>(event));
+      if (!committed) return forward_error(committed);
+      any_finished = any_finished || *committed;
+    }
+  }
+  // After the renames, so that one wait is for them too, and before the rows count. Should the
+  // power fail before it, resume finds a folder without a row, and believes it only after comparing
+  // it with its manifest.
+  return any_finished ? sync_filesystem(files_.frames()) : Status();
+}
+
+Result<bool> StoreWriter::commit(const FrameFinished& event) {
+  const auto& [frame, attempt] = event.job;
+  auto under_way = store_.is_under_way(frame, attempt);
+  if (!under_way || !*under_way) return under_way;  // late, or said twice
+  const Result<std::string> fingerprint = put_into_place(event.job);
+  if (!fingerprint) return forward_error(fingerprint);
+  Status row = store_.frame_done(frame, attempt, {event.pixel_hash, *fingerprint, event.twin},
+                                 event.timings);
+  if (!row) return forward_error(row);
+  return true;
+}
+
+Result<std::string> StoreWriter::put_into_place(const FrameJob& job) const {
   const fs::path folder = files_.frame(job.frame);
-  if (Status made = make_folders(folder.parent_path()); !made) return made;
+  if (Status made = make_folders(folder.parent_path()); !made) return forward_error(made);
   // An earlier attempt may have been rejected; this one was not.
   std::error_code ignored;
   fs::remove_all(files_.rejected(job.frame), ignored);
-  return replace_folder(files_.attempt(job.frame, job.attempt), folder);
+  if (Status placed = replace_folder(files_.attempt(job.frame, job.attempt), folder); !placed) {
+    return forward_error(placed);
+  }
+  return frame_fingerprint(folder);
 }
 
 }  // namespace seedframe

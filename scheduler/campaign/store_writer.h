@@ -21,12 +21,12 @@ struct AttemptStarted {
   FrameJob job;
   int worker = 0;
   double unix_time = 0.0;
+  std::string provenance = {};  ///< see JobStore::attempt_started
 };
 
 struct AttemptFailed {
   FrameJob job;
-  std::string message;
-  bool final = false;
+  AttemptFailure failure;
 };
 
 struct FrameFinished {
@@ -41,7 +41,9 @@ using StoreEvent = std::variant<AttemptStarted, AttemptFailed, FrameFinished>;
 /// A thread that writes what happens in a run, in order. Waiting for the disk takes as long as
 /// rendering a small frame, so nobody else waits, and what came meanwhile is written together: one
 /// wait for all files, one for the store. A row says "done" only when the frame's folder has its
-/// final name and is on the disk. The destructor writes what is left.
+/// final name and is on the disk; a folder gets its final name only while the store confirms that
+/// the run still owns the campaign and that the attempt is the one under way, or else it is
+/// dropped. The destructor writes what is left.
 class StoreWriter {
  public:
   /// `on_written` is called from the thread for each event, with the outcome of its batch.
@@ -59,7 +61,11 @@ class StoreWriter {
  private:
   void work();
   Status write(const std::vector<StoreEvent>& events);
-  Status put_into_place(const FrameJob& job) const;
+  Status write_rows(const std::vector<StoreEvent>& events);
+  /// Places and stores a frame; false if its attempt may not commit, which changes nothing.
+  Result<bool> commit(const FrameFinished& event);
+  /// The fingerprint of the frame in its place.
+  Result<std::string> put_into_place(const FrameJob& job) const;
 
   CampaignFiles files_;
   JobStore& store_;

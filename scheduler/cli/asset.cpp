@@ -92,11 +92,11 @@ int import_files(const Options& options) {
 Result<std::vector<std::string>> chosen_assets(const Options& options) {
   const auto library = AssetLibrary::open({options.library_root()});
   if (!library) return forward_error(library);
-  if (options.names.empty()) return library->names();
-  for (const std::string& name : options.names) {
+  const std::vector<std::string> names = options.names.empty() ? library->names() : options.names;
+  for (const std::string& name : names) {
     if (const auto folder = library->folder(name); !folder) return forward_error(folder);
   }
-  return options.names;
+  return names;
 }
 
 int list_assets(const Options& options) {

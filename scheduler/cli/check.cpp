@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/prepared_campaign.h"
+#include "cli/allow_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
@@ -18,6 +19,7 @@ namespace {
 struct CheckArguments {
   std::string config;
   std::vector<std::string> set;
+  std::vector<std::string> allowed;
   std::string graphs;
   bool json = false;
 };
@@ -52,7 +54,8 @@ int check(const CheckArguments& arguments) {
     if (!change) return report(change.error());
     overrides.push_back(std::move(*change));
   }
-  Result<CampaignSource> source = read_source(arguments.config, overrides, seedframe_home());
+  Result<CampaignSource> source =
+      read_source(arguments.config, overrides, seedframe_home(), arguments.allowed);
   if (!source) return report(source.error());
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (!prepared) return report(prepared.error());
@@ -91,6 +94,7 @@ void add_check_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("CONFIG", arguments->config, "campaign config (docs/config.md)")->required();
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
       ->allow_extra_args(false);
+  add_allow_option(*verb, arguments->allowed);
   verb->add_option(
       "--graphs", arguments->graphs,
       "write each frame's variables to this file, as JSON lines (docs/formats/graphs.md)");

@@ -16,6 +16,7 @@
 #include "geometry/asset_library.h"
 #include "image/color_management.h"
 #include "render/blender_info.h"
+#include "render/sandbox.h"
 #include "scene/material_library.h"
 
 namespace seedframe {
@@ -108,6 +109,9 @@ int examine(const DoctorArguments& arguments) {
   }
   findings.good("libraries", libraries);
   findings.good("cores", std::to_string(std::thread::hardware_concurrency()));
+  // Nothing needs it unless asked for.
+  const Status sandbox = check_sandbox();
+  findings.good("sandbox", sandbox ? "works (--sandbox)" : "not here: " + sandbox.error().message);
   std::error_code error;
   const fs::space_info space = fs::space(fs::current_path(), error);
   findings.good("disk", fmt::format("{} GB free here", space.available / 1'000'000'000));

@@ -5,17 +5,23 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/message_text.h"
 
 namespace seedframe {
 
 enum ExitCode : int {
   kExitOk = 0,
-  kExitInternal = 1,      ///< a mistake in Seedframe itself
-  kExitInput = 2,         ///< the config, an argument or the output folder; nothing was written
-  kExitSomeFailed = 3,    ///< the campaign ended, but some frames failed
-  kExitEnvironment = 4,   ///< Blender, the disk or the system is not as needed
-  kExitCorrupt = 5,       ///< files are not as Seedframe wrote them
-  kExitInterrupted = 130  ///< stopped by a signal; 'resume' goes on
+  kExitInternal = 1,     ///< a mistake in Seedframe itself
+  kExitInput = 2,        ///< the config, an argument or the output folder; nothing was written
+  kExitSomeFailed = 3,   ///< the campaign ended, but some frames failed
+  kExitEnvironment = 4,  ///< Blender, the disk or the system is not as needed
+  kExitCorrupt = 5,      ///< files are not as Seedframe wrote them
+  // Of verbs that compare pixels: the worst that they found.
+  kExitRounding = 6,         ///< labels identical, colours within some units in the last place
+  kExitTolerance = 7,        ///< labels identical, colours within the tolerance
+  kExitLabels = 8,           ///< labels differ
+  kExitNotReproducible = 9,  ///< colours beyond the tolerance, or frames missing
+  kExitInterrupted = 130     ///< stopped by a signal; 'resume' goes on
 };
 
 inline int exit_code(ErrorKind kind) {
@@ -23,6 +29,7 @@ inline int exit_code(ErrorKind kind) {
     case ErrorKind::kInput:
       return kExitInput;
     case ErrorKind::kEnvironment:
+    case ErrorKind::kExhausted:
       return kExitEnvironment;
     case ErrorKind::kCorrupt:
       return kExitCorrupt;
@@ -37,8 +44,8 @@ inline int report(const Error& error) {
   std::size_t start = 0;
   while (start <= error.message.size()) {
     const std::size_t end = std::min(error.message.find('\n', start), error.message.size());
-    std::fprintf(stderr, "seedframe: error: %s\n",
-                 error.message.substr(start, end - start).c_str());
+    const std::string line = printable(error.message.substr(start, end - start));
+    std::fprintf(stderr, "seedframe: error: %s\n", line.c_str());
     start = end + 1;
   }
   return exit_code(error.kind);

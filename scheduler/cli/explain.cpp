@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/campaign.h"
+#include "cli/allow_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
@@ -15,6 +16,7 @@ namespace {
 struct ExplainArguments {
   std::string folder;
   std::int64_t frame = 0;
+  std::vector<std::string> allowed;
   bool json = false;
 };
 
@@ -25,7 +27,8 @@ struct Explanation {
   Result<Manifest> manifest;
 };
 
-Result<Explanation> explain_frame(const Campaign& campaign, std::int64_t frame) {
+Result<Explanation> explain_frame(const Campaign& campaign, const ExplainArguments& arguments) {
+  const std::int64_t frame = arguments.frame;
   const auto row = campaign.store.frame(frame);
   if (!row) return forward_error(row);
   if (!*row) {
@@ -33,9 +36,7 @@ Result<Explanation> explain_frame(const Campaign& campaign, std::int64_t frame) 
     return fail(ErrorKind::kInput, "the campaign has no frame {}: its frames are 0 to {}", frame,
                 counts ? counts->total() - 1 : 0);
   }
-  Result<CampaignSource> source = source_of(campaign, seedframe_home());
-  if (!source) return forward_error(source);
-  Result<PreparedCampaign> prepared = prepare(std::move(*source));
+  Result<PreparedCampaign> prepared = prepare_again(campaign, seedframe_home(), arguments.allowed);
   if (!prepared) return forward_error(prepared);
   Result<ExpandedFrame> expanded = prepared->expander.expand(frame, {.draws = true});
   if (!expanded) return forward_error(expanded);
@@ -49,6 +50,10 @@ std::string render_again_command(const ExplainArguments& arguments) {
   return fmt::format("seedframe resume {} --frame {}", arguments.folder, arguments.frame);
 }
 
+Json provenance_json(const AttemptRow& row) {
+  return row.provenance.empty() ? Json() : Json::parse(row.provenance, nullptr, false);
+}
+
 Json explanation_json(const Explanation& explanation, const ExplainArguments& arguments) {
   Json draws = Json::object();
   for (const Draw& draw : explanation.expanded.draws) draws[draw.name] = draw.value;
@@ -56,11 +61,12 @@ Json explanation_json(const Explanation& explanation, const ExplainArguments& ar
   for (const AttemptRow& row : explanation.attempts) {
     attempts.push_back({{"attempt", row.attempt},
                         {"worker", row.worker},
-                        {"outcome", row.outcome},
+                        {"outcome", to_string(row.outcome)},
                         {"build_s", row.build_s},
                         {"render_s", row.render_s},
                         {"finish_s", row.finish_s},
-                        {"message", row.message}});
+                        {"message", row.message},
+                        {"provenance", provenance_json(row)}});
   }
   Json json = {{"frame", explanation.row.frame},
                {"scene", explanation.row.scene},
@@ -98,8 +104,14 @@ void print_explanation(const Explanation& explanation, const Campaign& campaign,
              spec.instances.size(), spec.materials.size(), spec.lights.size(), spec.render.seed);
   for (const AttemptRow& attempt : explanation.attempts) {
     fmt::print("attempt {}  worker {}, {}: build {:.3f} s, render {:.3f} s, finish {:.3f} s{}{}\n",
-               attempt.attempt, attempt.worker, attempt.outcome, attempt.build_s, attempt.render_s,
-               attempt.finish_s, attempt.message.empty() ? "" : "\n  ", attempt.message);
+               attempt.attempt, attempt.worker, to_string(attempt.outcome), attempt.build_s,
+               attempt.render_s, attempt.finish_s, attempt.message.empty() ? "" : "\n  ",
+               attempt.message);
+    const Json provenance = provenance_json(attempt);
+    if (!provenance.contains("blender")) continue;
+    const auto word = [&](const char* key) { return provenance.value(key, Json()).dump(); };
+    fmt::print("  Blender {}, Cycles' kernel {}, Embree's {}, threads {}\n", word("blender"),
+               word("kernel"), word("embree"), word("threads"));
   }
   fmt::print("draws\n");
   for (const Draw& draw : explanation.expanded.draws) {
@@ -111,7 +123,7 @@ void print_explanation(const Explanation& explanation, const Campaign& campaign,
 int explain(const ExplainArguments& arguments) {
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
-  const Result<Explanation> explanation = explain_frame(*campaign, arguments.frame);
+  const Result<Explanation> explanation = explain_frame(*campaign, arguments);
   if (!explanation) return report(explanation.error());
   if (arguments.json) {
     fmt::print("{}", readable_json(explanation_json(*explanation, arguments)));
@@ -131,6 +143,7 @@ void add_explain_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("FRAME", arguments->frame, "index of the frame, from 0")
       ->required()
       ->check(CLI::NonNegativeNumber);
+  add_allow_option(*verb, arguments->allowed);
   verb->add_flag("--json", arguments->json, "print it as JSON");
   verb->footer("Example: seedframe explain results/parts 12");
   verb->callback(

@@ -11,6 +11,7 @@
 
 #include "base/nearest_name.h"
 #include "campaign/campaign.h"
+#include "cli/allow_option.h"
 #include "cli/campaign_dataset.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
@@ -26,6 +27,7 @@ struct ExportArguments {
   std::string folder;
   std::string output;
   std::vector<std::string> formats;
+  std::vector<std::string> allowed;
   std::string split;
   std::string polygon = "exact";
   std::string polygon_vertices = "edges";
@@ -182,9 +184,8 @@ int export_campaign(const ExportArguments& arguments) {
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
   if (options->output.empty()) options->output = campaign->files.exports();
-  Result<CampaignSource> source = source_of(*campaign, seedframe_home());
-  if (!source) return report(source.error());
-  const Result<PreparedCampaign> prepared = prepare(std::move(*source));
+  const Result<PreparedCampaign> prepared =
+      prepare_again(*campaign, seedframe_home(), arguments.allowed);
   if (!prepared) return report(prepared.error());
   const Result<CampaignDataset> dataset = campaign_dataset(*campaign, *prepared);
   if (!dataset) return report(dataset.error());
@@ -253,6 +254,7 @@ void add_export_verb(CLI::App& app, const OnSelected& on_selected) {
       ->capture_default_str();
   verb->add_option("--workers", options.workers, "threads (default: one for each core)")
       ->check(CLI::Range(1, 256));
+  add_allow_option(*verb, arguments->allowed);
   verb->add_flag("--link", arguments->link, "hard-link the images instead of copying them");
   verb->add_flag("--partial", arguments->partial, "export although frames are missing");
   verb->add_flag("--verify", arguments->verify,

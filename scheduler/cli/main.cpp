@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,7 @@ int run(int argc, char** argv) {
   seedframe::add_export_verb(app, on_selected);
   seedframe::add_check_verb(app, on_selected);
   seedframe::add_asset_verb(app, on_selected);
+  seedframe::add_compare_verb(app, on_selected);
   seedframe::add_doctor_verb(app, on_selected);
   app.footer("Example: seedframe submit configs/parts.yaml");
 
@@ -104,6 +106,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("seedframe: error: there is not enough memory for this\n", stderr);
+    return seedframe::kExitEnvironment;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "seedframe: internal error: %s\n", error.what());
     return seedframe::kExitInternal;

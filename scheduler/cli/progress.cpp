@@ -54,7 +54,8 @@ std::string Progress::line() const {
   if (failed_ > 0) text += fmt::format(", {} failed", failed_);
   // The first frame waits for Blender to start; the rate is that of the frames after it.
   const double elapsed = done_ > 1 ? seconds_between(first_done_, Clock::now()) : 0.0;
-  if (elapsed > 0.0) {
+  constexpr double kKnown = 0.5;  // s: a rate over less means nothing
+  if (elapsed > kKnown) {
     const double rate = static_cast<double>(done_ - 1) / elapsed;
     text += fmt::format(", {:.2f} frames/s", rate);
     const std::int64_t left = frames_ - done_ - failed_;
@@ -85,11 +86,22 @@ void Progress::frame_done(std::int64_t) {
   show(done_ + failed_ == frames_);
 }
 
-void Progress::attempt_failed(const FrameJob& job, const std::string& message, bool final) {
+void Progress::attempt_failed(const FrameJob& job, const AttemptFailure& failure) {
+  const bool final = failure.consequence != Consequence::kRetry;
   if (final) ++failed_;
   if (line_open_) std::fputs("\r\033[K", stderr);
-  std::fprintf(stderr, "frame %lld, attempt %d failed%s: %s\n", static_cast<long long>(job.frame),
-               job.attempt, final ? " for good" : ", trying again", first_line(message).c_str());
+  const char* next = failure.consequence == Consequence::kQuarantined ? " and is quarantined"
+                     : final                                          ? " for good"
+                                                                      : ", trying again";
+  std::fprintf(stderr, "frame %lld, attempt %d %s%s: %s\n", static_cast<long long>(job.frame),
+               job.attempt, failure.failure == Failure::kCrash ? "cost a worker" : "failed", next,
+               first_line(failure.message).c_str());
+  show(terminal_);
+}
+
+void Progress::noted(const std::string& text) {
+  if (line_open_) std::fputs("\r\033[K", stderr);
+  std::fprintf(stderr, "seedframe: note: %s\n", text.c_str());
   show(terminal_);
 }
 

@@ -16,7 +16,9 @@ class Progress : public RunObserver {
   ~Progress() override;
 
   void frame_done(std::int64_t frame) override;
-  void attempt_failed(const FrameJob& job, const std::string& message, bool final) override;
+  void attempt_failed(const FrameJob& job, const AttemptFailure& failure) override;
+  void noted(const std::string& text) override;
+  std::int64_t done() const { return done_; }
   /// Ends the moving line.
   void finish();
 
@@ -29,7 +31,7 @@ class Progress : public RunObserver {
   bool quiet_;
   bool terminal_;
   std::int64_t done_ = 0;
-  std::int64_t failed_ = 0;
+  std::int64_t failed_ = 0;  ///< or quarantined
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point first_done_;
   std::chrono::steady_clock::time_point last_shown_;

@@ -5,8 +5,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "campaign/input_files.h"
+#include "cli/allow_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
+#include "cli/run_campaign.h"
 #include "cli/run_options.h"
 #include "cli/verb.h"
 
@@ -16,28 +19,22 @@ namespace {
 struct ResumeArguments {
   std::string folder;
   std::vector<std::int64_t> frames;
+  std::vector<std::string> allowed;
   bool verify = false;
   RunArguments run;
 };
 
-/// Each frame that will be rendered must still be the frame that was submitted.
-Status check_identities(const Campaign& campaign, PreparedCampaign& prepared,
-                        const std::vector<PendingFrame>& frames) {
-  for (const PendingFrame& pending : frames) {
-    const Result<ExpandedFrame> expanded = prepared.expander.expand(pending.frame);
-    if (!expanded) return forward_error(expanded);
-    const auto row = campaign.store.frame(pending.frame);
-    if (!row) return forward_error(row);
-    if (!*row || (*row)->frame_id != expanded->id) {
-      return fail(ErrorKind::kInput,
-                  "{}: the config, an asset, a material or Seedframe itself changed since this "
-                  "campaign was submitted: frame {} would be another image (id {} instead of {}). "
-                  "Undo the change, or submit a new campaign",
-                  campaign.files.root().string(), pending.frame, expanded->id.substr(0, 12),
-                  *row ? (*row)->frame_id.substr(0, 12) : "none");
-    }
+void print_renewed(const RenewedFrames& renewed) {
+  if (renewed.frames == 0) return;
+  std::fprintf(stderr, "%lld frames are others now and are made again, since these have changed:\n",
+               static_cast<long long>(renewed.frames));
+  constexpr std::size_t kMostShown = 10;
+  for (std::size_t i = 0; i < std::min(kMostShown, renewed.inputs.size()); ++i) {
+    std::fprintf(stderr, "  %s\n", renewed.inputs[i].c_str());
   }
-  return {};
+  if (renewed.inputs.size() > kMostShown) {
+    std::fprintf(stderr, "  and %zu more\n", renewed.inputs.size() - kMostShown);
+  }
 }
 
 /// With --frame: just these, even if they are done.
@@ -50,7 +47,7 @@ Status select_frames(Campaign& campaign, const std::vector<std::int64_t>& wanted
     if (!row) return forward_error(row);
     if (!*row) return fail(ErrorKind::kInput, "the campaign has no frame {}", frame);
     if (Status reset = campaign.store.reset(frame); !reset) return reset;
-    state.to_render.push_back({frame, (*row)->attempts});
+    state.to_render.push_back({frame, (*row)->attempts, 0});
   }
   return {};
 }
@@ -60,12 +57,16 @@ int resume(ResumeArguments arguments) {
   if (!campaign) return report(campaign.error());
   const Result<CampaignLock> lock = CampaignLock::acquire(campaign->files.lock());
   if (!lock) return report(lock.error());
-  Result<CampaignSource> source = source_of(*campaign, seedframe_home());
-  if (!source) return report(source.error());
-  Result<PreparedCampaign> prepared = prepare(std::move(*source));
+  Result<PreparedCampaign> prepared = prepare_again(*campaign, seedframe_home(), arguments.allowed);
   if (!prepared) return report(prepared.error());
-  Result<Reconciliation> state =
-      reconcile(*campaign, arguments.verify ? VerifyDepth::kContents : VerifyDepth::kSizes);
+  if (arguments.verify) {
+    if (Status whole = campaign->store.check_integrity(); !whole) return report(whole.error());
+  }
+  if (Status begun = begin_run(*campaign); !begun) return report(begun.error());
+  const Result<RenewedFrames> renewed = renew_changed_frames(*campaign, *prepared);
+  if (!renewed) return report(renewed.error());
+  print_renewed(*renewed);
+  Result<Reconciliation> state = reconcile(*campaign, arguments.verify);
   if (!state) return report(state.error());
   for (const std::string& why : state->invalid) {
     std::fprintf(stderr, "to be rendered again: %s\n", why.c_str());
@@ -78,13 +79,10 @@ int resume(ResumeArguments arguments) {
   if (Status selected = select_frames(*campaign, arguments.frames, *state); !selected) {
     return report(selected.error());
   }
-  if (Status same = check_identities(*campaign, *prepared, state->to_render); !same) {
-    return report(same.error());
-  }
   Result<RunSetup> setup = set_up_run(arguments.run, prepared->config,
                                       static_cast<std::int64_t>(state->to_render.size()));
   if (!setup) return report(setup.error());
-  return run_campaign(*campaign, *prepared, *setup, state->to_render, arguments.run);
+  return run_campaign(*campaign, *prepared, *setup, std::move(state->to_render), arguments.run);
 }
 
 }  // namespace
@@ -93,13 +91,17 @@ void add_resume_verb(CLI::App& app, const OnSelected& on_selected) {
   auto arguments = std::make_shared<ResumeArguments>();
   CLI::App* verb = app.add_subcommand(
       "resume",
-      "render exactly what is missing, failed or invalid; a complete campaign renders nothing");
+      "render exactly what is missing, failed, invalid or out of date; a complete campaign renders "
+      "nothing");
   verb->add_option("DIR", arguments->folder, "folder of the campaign")->required();
   verb->add_option("--frame", arguments->frames, "render just this frame, even if it is done")
       ->allow_extra_args(false)
       ->check(CLI::NonNegativeNumber);
-  verb->add_flag("--verify", arguments->verify,
-                 "read every finished frame and compare it with its manifest, not only the sizes");
+  add_allow_option(*verb, arguments->allowed);
+  verb->add_flag(
+      "--verify", arguments->verify,
+      "read every finished frame and compare it with its manifest, however untouched it looks, "
+      "and check the store");
   add_run_options(*verb, arguments->run);
   verb->footer("Example: seedframe resume results/parts");
   verb->callback(

@@ -1,4 +1,4 @@
-// The options that submit and resume share, and the run that they both start.
+// The options that submit and resume share, and what a run needs of them.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,14 @@ struct RunArguments {
   int workers = 0;  ///< 0: chosen from the size of a frame and the cores
   int threads = 0;
   int max_attempts = 3;
+  int max_crashes = 3;
   double frame_timeout_s = 600.0;
+  double heartbeat_timeout_s = 120.0;
+  int frames_per_worker = 2000;
+  double worker_memory_gb = 0.0;  ///< 0: chosen
+  bool sandbox = false;
+  double pause_limit_s = 600.0;
+  bool no_space_check = false;
   bool quiet = false;
 };
 
@@ -37,10 +44,5 @@ Result<RunSetup> set_up_run(const RunArguments& arguments, const CampaignConfig&
 
 /// "2 × Blender 3.4.1, threads each: 1", or "2 frames at once, threads each: 1, without Blender".
 std::string describe(const RunSetup& setup);
-
-/// Renders the frames with a progress bar, Ctrl-C draining, and prints how it ended and what to do
-/// next. Returns the exit code.
-int run_campaign(Campaign& campaign, PreparedCampaign& prepared, const RunSetup& setup,
-                 const std::vector<PendingFrame>& frames, const RunArguments& arguments);
 
 }  // namespace seedframe

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/campaign.h"
+#include "campaign/provenance.h"
 #include "cli/exit_code.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
@@ -21,13 +22,16 @@ struct CampaignStatus {
   FrameCounts counts;
   std::optional<AttemptTimings> timings;
   std::vector<AttemptRow> failures;
+  std::vector<FrameRow> quarantined;
   TwinSummary twin;
   std::string dataset_hash;
+  std::vector<std::string> provenances;
   bool running = false;  ///< a scheduler is at work
 };
 
 constexpr int kTimedAttempts = 100;
 constexpr int kShownFailures = 5;
+constexpr int kShownQuarantined = 20;
 
 Result<CampaignStatus> read_status(const Campaign& campaign) {
   CampaignStatus status;
@@ -40,12 +44,18 @@ Result<CampaignStatus> read_status(const Campaign& campaign) {
   const auto failures = campaign.store.recent_failures(kShownFailures);
   if (!failures) return forward_error(failures);
   status.failures = *failures;
+  const auto quarantined = campaign.store.frames_in(FrameState::kQuarantined, kShownQuarantined);
+  if (!quarantined) return forward_error(quarantined);
+  status.quarantined = *quarantined;
   const auto twin = campaign.store.twin_summary();
   if (!twin) return forward_error(twin);
   status.twin = *twin;
   const auto hash = campaign.store.dataset_hash();
   if (!hash) return forward_error(hash);
   status.dataset_hash = *hash;
+  const auto provenances = campaign.store.provenances();
+  if (!provenances) return forward_error(provenances);
+  status.provenances = *provenances;
   status.running =
       !CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0)).has_value();
   return status;
@@ -54,12 +64,24 @@ Result<CampaignStatus> read_status(const Campaign& campaign) {
 Json status_json(const CampaignStatus& status) {
   Json failures = Json::array();
   for (const AttemptRow& row : status.failures) {
-    failures.push_back({{"frame", row.frame}, {"attempt", row.attempt}, {"message", row.message}});
+    failures.push_back({{"frame", row.frame},
+                        {"attempt", row.attempt},
+                        {"outcome", to_string(row.outcome)},
+                        {"message", row.message}});
   }
-  Json json = {{"frames", status.counts.total()},  {"done", status.counts.done},
-               {"pending", status.counts.pending}, {"running", status.counts.running},
-               {"failed", status.counts.failed},   {"active", status.running},
-               {"recent_failures", failures},      {"dataset_hash", status.dataset_hash}};
+  Json quarantined = Json::array();
+  for (const FrameRow& row : status.quarantined) {
+    quarantined.push_back({{"frame", row.frame}, {"crashes", row.crashes}, {"error", row.error}});
+  }
+  Json json = {{"frames", status.counts.total()},   {"done", status.counts.done},
+               {"pending", status.counts.pending},  {"running", status.counts.running},
+               {"failed", status.counts.failed},    {"quarantined", status.counts.quarantined},
+               {"quarantined_frames", quarantined}, {"active", status.running},
+               {"recent_failures", failures},       {"dataset_hash", status.dataset_hash}};
+  json["provenances"] = Json::array();
+  for (const std::string& text : status.provenances) {
+    json["provenances"].push_back(Json::parse(text, nullptr, /*allow_exceptions=*/false));
+  }
   const TwinSummary& twin = status.twin;
   json["twin"] = {{"frames", twin.frames},
                   {"frames_differing", twin.frames_differing},
@@ -99,15 +121,32 @@ void print_timings(const AttemptTimings& timings, const FrameCounts& counts) {
   }
 }
 
+/// Says so if frames may differ for being made with different things.
+void print_mixture(const std::vector<std::string>& provenances) {
+  if (provenances.empty()) return;
+  const auto json = [](const std::string& text) { return Json::parse(text, nullptr, false); };
+  for (const std::string& text : provenances) {
+    const std::string difference = describe_difference(json(text), json(provenances.front()));
+    if (difference.empty()) continue;
+    fmt::print("some attempts were made with {}: their pixels are not comparable\n", difference);
+  }
+}
+
 void print_status(const CampaignStatus& status, const std::string& folder) {
   const FrameCounts& counts = status.counts;
-  fmt::print("{} frames: {} done, {} running, {} pending, {} failed{}\n", counts.total(),
-             counts.done, counts.running, counts.pending, counts.failed,
-             status.running ? " (a scheduler is at work)" : "");
+  fmt::print("{} frames: {} done, {} running, {} pending, {} failed, {} quarantined{}\n",
+             counts.total(), counts.done, counts.running, counts.pending, counts.failed,
+             counts.quarantined, status.running ? " (a scheduler is at work)" : "");
   if (status.timings) print_timings(*status.timings, counts);
   if (status.twin.frames > 0) fmt::print("{}", twin_text(status.twin));
+  print_mixture(status.provenances);
   for (const AttemptRow& row : status.failures) {
-    fmt::print("frame {}, attempt {}: {}\n", row.frame, row.attempt, row.message);
+    fmt::print("frame {}, attempt {} ({}): {}\n", row.frame, row.attempt, to_string(row.outcome),
+               row.message);
+  }
+  for (const FrameRow& row : status.quarantined) {
+    fmt::print("frame {} is quarantined after {} crashes; see it again: {}\n", row.frame,
+               row.crashes, command_to_reproduce(folder, row.frame));
   }
   if (!status.dataset_hash.empty()) {
     fmt::print("dataset hash {}\n", status.dataset_hash);

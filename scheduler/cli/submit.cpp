@@ -5,8 +5,11 @@
 #include <CLI/CLI.hpp>
 
 #include "base/files.h"
+#include "campaign/disk_space.h"
+#include "cli/allow_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
+#include "cli/run_campaign.h"
 #include "cli/run_options.h"
 #include "cli/verb.h"
 
@@ -17,6 +20,7 @@ struct SubmitArguments {
   std::string config;
   std::string output;
   std::vector<std::string> set;
+  std::vector<std::string> allowed;
   std::int64_t frames = 0;
   bool dry_run = false;
   RunArguments run;
@@ -29,7 +33,8 @@ Result<PreparedCampaign> prepare_submission(const SubmitArguments& arguments) {
     if (!change) return forward_error(change);
     overrides.push_back(std::move(*change));
   }
-  Result<CampaignSource> source = read_source(arguments.config, overrides, seedframe_home());
+  Result<CampaignSource> source =
+      read_source(arguments.config, overrides, seedframe_home(), arguments.allowed);
   if (!source) return forward_error(source);
   return prepare(std::move(*source));
 }
@@ -47,7 +52,8 @@ void print_plan(const PreparedCampaign& prepared, const RunSetup& setup, std::in
              prepared.expander.image_files().size());
   fmt::print("{}", describe_constraints(prepared.expander));
   fmt::print("by {}\n", describe(setup));
-  fmt::print("into {} (nothing was written)\n", folder.string());
+  fmt::print("into {}, about {} (nothing was written)\n", folder.string(),
+             bytes_text(typical_frame_bytes(config) * static_cast<std::uint64_t>(frames)));
 }
 
 int submit(const SubmitArguments& arguments) {
@@ -62,19 +68,19 @@ int submit(const SubmitArguments& arguments) {
   // folder behind that somebody would have to take away again.
   const Result<CampaignSize> size = expand_all(prepared->expander, {.id = false});
   if (!size) return report(size.error());
-  const Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
+  Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
   if (!setup) return report(setup.error());
   if (arguments.dry_run) {
     print_plan(*prepared, *setup, wanted, folder);
     return kExitOk;
   }
-  Result<Campaign> campaign = create_campaign(folder, *prepared);
-  if (!campaign) return report(campaign.error());
-  const Result<CampaignLock> lock = CampaignLock::acquire(campaign->files.lock());
-  if (!lock) return report(lock.error());
+  Result<LockedCampaign> created = create_campaign(folder, *prepared);
+  if (!created) return report(created.error());
+  Campaign& campaign = created->campaign;
+  if (Status begun = begin_run(campaign); !begun) return report(begun.error());
   std::vector<PendingFrame> pending;
-  for (std::int64_t frame = 0; frame < wanted; ++frame) pending.push_back({frame, 0});
-  return run_campaign(*campaign, *prepared, *setup, pending, arguments.run);
+  for (std::int64_t frame = 0; frame < wanted; ++frame) pending.push_back({frame});
+  return run_campaign(campaign, *prepared, *setup, std::move(pending), arguments.run);
 }
 
 }  // namespace
@@ -88,6 +94,7 @@ void add_submit_verb(CLI::App& app, const OnSelected& on_selected) {
                    "folder of the campaign (default: results/<name of the campaign>)");
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
       ->allow_extra_args(false);
+  add_allow_option(*verb, arguments->allowed);
   verb->add_option("--frames", arguments->frames,
                    "render only the first N frames; 'resume' renders the rest")
       ->check(CLI::PositiveNumber);

@@ -1,11 +1,12 @@
 #include "config/campaign_config.h"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <set>
 
+#include "base/message_text.h"
 #include "base/nearest_name.h"
+#include "config/determinism_section.h"
 #include "config/plan_sections.h"
 #include "config/scene_sections.h"
 #include "config/section_reader.h"
@@ -14,13 +15,13 @@ namespace seedframe {
 namespace {
 
 constexpr int kConfigVersion = 1;
-constexpr long long kLargestSide = 16384;       // of an image, pixels
-constexpr long long kMostFrames = 100'000'000;  // of a campaign
+constexpr long long kLargestSide = 16384;  // of an image, pixels
 
 RenderConfig read_render(SectionReader& campaign, Diagnostics& errors) {
   RenderConfig render;
   const auto node = campaign.find("render");
   if (!node) return render;
+  render.place = node->place();
   SectionReader section(*node, errors);
   render.width = static_cast<int>(section.integer("width", render.width, 1, kLargestSide));
   render.height = static_cast<int>(section.integer("height", render.height, 1, kLargestSide));
@@ -42,12 +43,13 @@ RenderConfig read_render(SectionReader& campaign, Diagnostics& errors) {
                  "unknown pass '" + pass + "'" + did_you_mean(pass, {"depth", "normal"}));
     }
   }
+  if (const auto kept = section.find("persistent_data")) render.place = kept->place();
+  render.persistent_data = section.flag("persistent_data", render.persistent_data);
   section.refuse_other_keys();
   return render;
 }
 
-ImageConfig read_image(SectionReader& campaign, const std::filesystem::path& folder,
-                       Diagnostics& errors) {
+ImageConfig read_image(SectionReader& campaign, Diagnostics& errors) {
   ImageConfig image;
   const auto node = campaign.find("image");
   if (!node) return image;
@@ -59,9 +61,9 @@ ImageConfig read_image(SectionReader& campaign, const std::filesystem::path& fol
   image.exposure_stops = section.constant("exposure_stops", image.exposure_stops);
   image.gamma = section.positive("gamma", image.gamma);
   if (const auto ocio = section.find("ocio_config")) {
-    if (ocio->is_scalar()) image.ocio_config = folder / ocio->text();
+    image.ocio_config = ocio->named_path(errors);
     std::error_code missing;
-    if (!ocio->is_scalar() || !std::filesystem::is_regular_file(*image.ocio_config, missing)) {
+    if (image.ocio_config && !std::filesystem::is_regular_file(*image.ocio_config, missing)) {
       errors.add(ocio->place(), "expected the path of an OpenColorIO config, found " +
                                     ocio->description() + " (paths start at the config's folder)");
     }
@@ -108,17 +110,21 @@ LabelConfig read_labels(SectionReader& root, Diagnostics& errors) {
   return labels;
 }
 
-std::vector<std::filesystem::path> read_folders(SectionReader& section, const std::string& key,
-                                                const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> read_folders(SectionReader& section, const std::string& key) {
   std::vector<std::filesystem::path> folders;
-  for (const std::string& text : section.texts(key)) {
-    folders.push_back(folder / text);
+  const auto list = section.find(key);
+  if (!list) return folders;
+  if (!list->is_list()) {
+    section.errors().add(list->place(), "expected a list of folders, found " + list->description());
+  }
+  for (const ConfigNode& item : list->items()) {
+    const auto folder = item.named_path(section.errors());
+    if (!folder) continue;
+    folders.push_back(*folder);
     std::error_code missing;
-    if (!std::filesystem::is_directory(folders.back(), missing)) {
-      section.errors().add(
-          section.node().find(key)->place(),
-          "there is no folder '" + text + "' (paths start at the config's folder)");
-    }
+    if (std::filesystem::is_directory(*folder, missing)) continue;
+    section.errors().add(item.place(), "there is no folder '" + item.text() +
+                                           "' (paths start at the config's folder)");
   }
   return folders;
 }
@@ -138,13 +144,12 @@ void read_size(SectionReader& section, CampaignConfig& config) {
   }
 }
 
-void read_graphs(SectionReader& section, CampaignConfig& config,
-                 const std::filesystem::path& folder) {
+void read_graphs(SectionReader& section, CampaignConfig& config) {
   const auto node = section.find("graphs");
   if (!node) return;
-  config.graphs = folder / section.text("graphs", "");
+  config.graphs = node->named_path(section.errors());
   std::error_code missing;
-  if (!std::filesystem::is_regular_file(*config.graphs, missing)) {
+  if (config.graphs && !std::filesystem::is_regular_file(*config.graphs, missing)) {
     section.errors().add(node->place(), "expected a file of JSON lines, found " +
                                             node->description() +
                                             " (paths start at the config's folder)");
@@ -163,6 +168,12 @@ void read_categories(SectionReader& section, CampaignConfig& config) {
   config.categories = section.texts("categories");
   std::set<std::string> seen;
   for (const std::string& category : config.categories) {
+    if (!is_one_line_name(category)) {
+      section.errors().add(section.node().find("categories")->place(),
+                           "a category's name is one line of at most 200 bytes, without control "
+                           "characters, found '" +
+                               shortened(category, 200) + "'");
+    }
     if (!seen.insert(category).second) {
       section.errors().add(section.node().find("categories")->place(),
                            "the category '" + category + "' stands twice");
@@ -175,16 +186,33 @@ void read_categories(SectionReader& section, CampaignConfig& config) {
   }
 }
 
-/// It becomes the name of a folder.
-std::string read_campaign_name(SectionReader& section, const std::string& fallback) {
-  std::string name = section.text("name", fallback);
-  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-  });
-  if (section.node().find("name") && (!plain || name.starts_with("."))) {
+constexpr std::size_t kLongestName = 100;  // of a campaign; it becomes the name of a folder
+
+bool is_name_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-' || c == '.';
+}
+
+bool may_begin_name(char c) { return c != '.' && c != '-'; }
+
+/// That of the file, made to fit: it may come from a stranger as the config does.
+std::string default_campaign_name(const std::filesystem::path& file) {
+  std::string name = file.stem().string().substr(0, kLongestName);
+  if (name.empty()) return "campaign";
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !is_name_character(c); }, '_');
+  if (!may_begin_name(name.front())) name.front() = '_';
+  return name;
+}
+
+std::string read_campaign_name(SectionReader& section, const std::filesystem::path& file) {
+  std::string name = section.text("name", default_campaign_name(file));
+  const bool plain = name.size() <= kLongestName && may_begin_name(name.front()) &&
+                     std::all_of(name.begin(), name.end(), is_name_character);
+  if (!plain) {
     section.errors().add(section.node().find("name")->place(),
-                         "a campaign's name is letters, digits, '_', '-' and '.', and does not "
-                         "begin with '.'");
+                         "a campaign's name is letters, digits, '_', '-' and '.', at most 100 of "
+                         "them, and does not begin with '.' or '-'");
   }
   return name;
 }
@@ -204,22 +232,23 @@ void read_version(SectionReader& section) {
 
 Result<CampaignConfig> read_campaign_config(const std::string& text,
                                             const std::filesystem::path& file,
-                                            const std::vector<Override>& overrides) {
-  const Result<ConfigNode> root = ConfigNode::parse(text, file.string(), overrides);
+                                            const std::vector<Override>& overrides,
+                                            const AllowedFolders& allowed) {
+  const Result<ConfigNode> root = ConfigNode::parse(text, file.string(), overrides, allowed);
   if (!root) return forward_error(root);
-  const std::filesystem::path folder = file.parent_path();
   Diagnostics errors;
   CampaignConfig config;
   SectionReader section(*root, errors);
   read_version(section);
-  config.name = read_campaign_name(section, file.stem().string());
+  config.name = read_campaign_name(section, file);
   section.text("description", "");
   read_size(section, config);
   read_categories(section, config);
-  config.asset_folders = read_folders(section, "asset_folders", folder);
-  config.material_folders = read_folders(section, "material_folders", folder);
+  config.asset_folders = read_folders(section, "asset_folders");
+  config.material_folders = read_folders(section, "material_folders");
   config.render = read_render(section, errors);
-  config.image = read_image(section, folder, errors);
+  config.determinism = read_determinism(section, config.render);
+  config.image = read_image(section, errors);
   config.labels = read_labels(section, errors);
   if (const auto node = section.find("variables")) {
     SectionReader variables(*node, errors);
@@ -235,16 +264,18 @@ Result<CampaignConfig> read_campaign_config(const std::string& text,
   config.world = read_world(section);
   config.constraints = read_constraints(section, config.objects);
   config.max_attempts = static_cast<int>(section.integer("max_attempts", 100, 1, 100'000));
-  read_graphs(section, config, folder);
+  read_graphs(section, config);
   if (const auto camera = section.require("camera")) config.camera = read_camera(*camera, errors);
   section.refuse_other_keys();
   if (!errors.empty()) return tl::unexpected(errors.as_error());
+  config.files = root->named_files();
   return config;
 }
 
 Result<std::vector<MaterialConfig>> read_material_library(const std::string& text,
-                                                          const std::filesystem::path& file) {
-  const Result<ConfigNode> root = ConfigNode::parse(text, file.string());
+                                                          const std::filesystem::path& file,
+                                                          const AllowedFolders& allowed) {
+  const Result<ConfigNode> root = ConfigNode::parse(text, file.string(), {}, allowed);
   if (!root) return forward_error(root);
   Diagnostics errors;
   SectionReader section(*root, errors);

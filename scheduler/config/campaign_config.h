@@ -10,9 +10,12 @@
 #include <variant>
 #include <vector>
 
+#include "base/isa.h"
 #include "config/values.h"
 
 namespace seedframe {
+
+inline constexpr long long kMostFrames = 100'000'000;  // of a campaign
 
 /// How often something is drawn anew. A copy's own variables are drawn for each copy, once per
 /// scene or once per frame.
@@ -64,6 +67,19 @@ struct RenderConfig {
   double clamp_indirect = 10.0;
   bool depth = false;
   bool normal = false;
+  bool persistent_data = false;  ///< Cycles keeps scenes: pixels depend on earlier frames
+  Place place;
+};
+
+/// What is promised of the pixels.
+struct DeterminismConfig {
+  enum class Mode {
+    kMachine,   ///< the same on one kind of CPU
+    kPortable,  ///< the same on every CPU that has the instruction set
+    kNone,      ///< nothing
+  };
+  Mode mode = Mode::kMachine;
+  Isa isa = Isa::kAvx2;  ///< that a portable campaign is rendered with
 };
 
 /// Where labels come from: Blender's index pass, checked against the twin; or the twin alone,
@@ -215,6 +231,7 @@ struct CampaignConfig {
   std::vector<std::filesystem::path> asset_folders;     ///< searched before the built-in ones
   std::vector<std::filesystem::path> material_folders;  ///< searched before the built-in ones
   RenderConfig render;
+  DeterminismConfig determinism;
   ImageConfig image;
   LabelConfig labels;
   std::vector<VariableConfig> campaign_variables, scene_variables, frame_variables;
@@ -228,18 +245,22 @@ struct CampaignConfig {
   std::vector<ConstraintConfig> constraints;
   int max_attempts = 100;                       ///< to meet all constraints in a frame
   std::optional<std::filesystem::path> graphs;  ///< JSON lines of variables' values, one a frame
+  std::vector<std::filesystem::path> files;     ///< that the config and its bases name, and folders
 
   std::int64_t frame_count() const { return scenes * frames_per_scene; }
 };
 
 /// Reads a config's text. `file` is the path as the user gave it; relative paths inside start at
-/// its folder. The error names every mistake with file:line:column and the path of the key.
+/// its folder. All that it names lies in that folder or in an allowed one. The error names every
+/// mistake with file:line:column and the path of the key.
 Result<CampaignConfig> read_campaign_config(const std::string& text,
                                             const std::filesystem::path& file,
-                                            const std::vector<Override>& overrides = {});
+                                            const std::vector<Override>& overrides = {},
+                                            const AllowedFolders& allowed = {});
 
 /// Reads a material library: a document whose only key `materials` is as in a campaign.
 Result<std::vector<MaterialConfig>> read_material_library(const std::string& text,
-                                                          const std::filesystem::path& file);
+                                                          const std::filesystem::path& file,
+                                                          const AllowedFolders& allowed = {});
 
 }  // namespace seedframe

@@ -8,6 +8,8 @@
 #include "base/files.h"
 #include "base/nearest_name.h"
 #include "config/config_text.h"
+#include "config/yaml_document.h"
+#include "config/yaml_size.h"
 
 namespace seedframe {
 namespace {
@@ -20,22 +22,25 @@ Place yaml_place(const std::string& file, const YAML::Mark& mark, const std::str
   return {file, mark.is_null() ? 0 : mark.line + 1, mark.is_null() ? 0 : mark.column + 1, path};
 }
 
-// Aliases make a small file walk like a huge one; every reader of the tree is safe below this
-// bound.
-constexpr int kMostNodes = 1'000'000;
-constexpr int kDeepest = 64;
+// Of "objects.robots.slots.shell.realistic_share"; every value keeps the path to it.
+constexpr std::size_t kLongestPath = 500;
 
+// Aliases make a small file walk like a huge one; every reader of the tree is safe below these
+// bounds.
 class TreeCheck {
  public:
   TreeCheck(const std::string& file, Diagnostics& errors) : file_(file), errors_(errors) {}
 
   void walk(const YAML::Node& node, const std::string& path, int depth) {
-    if (++nodes_ > kMostNodes || depth > kDeepest) {
+    bytes_ += path.size() + (node.IsScalar() ? node.Scalar().size() : 0);
+    if (++nodes_ > kMostYamlNodes || depth > kDeepestYaml || bytes_ > kMostYamlBytes ||
+        path.size() > kLongestPath) {
       if (!bomb_) {
         errors_.add(yaml_place(file_, node.Mark(), ""),
-                    fmt::format("the config has more than {} values or {} levels (aliases "
-                                "counted each time they are used)",
-                                kMostNodes, kDeepest));
+                    fmt::format("the config has more than {} values, {} levels or {} bytes of text "
+                                "(aliases counted each time they are used), or the path of a key "
+                                "has more than {} characters",
+                                kMostYamlNodes, kDeepestYaml, kMostYamlBytes, kLongestPath));
       }
       bomb_ = true;
     }
@@ -64,26 +69,9 @@ class TreeCheck {
   const std::string& file_;
   Diagnostics& errors_;
   int nodes_ = 0;
+  std::size_t bytes_ = 0;
   bool bomb_ = false;
 };
-
-Result<YAML::Node> load(const std::string& text, const std::string& file) {
-  if (Status readable = check_config_text(text, file); !readable) return forward_error(readable);
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    for (std::size_t i = 1; i < documents.size(); ++i) {
-      if (documents[i].IsNull()) continue;
-      return fail(ErrorKind::kInput, "{}: a config is one YAML document, and here a second begins",
-                  yaml_place(file, documents[i].Mark(), "").text());
-    }
-    return documents.empty() ? YAML::Node() : documents.front();
-  } catch (const YAML::ParserException& error) {
-    return fail(ErrorKind::kInput, "{}: this is not YAML: {}",
-                yaml_place(file, error.mark, "").text(), error.msg);
-  } catch (const YAML::Exception& error) {
-    return fail(ErrorKind::kInput, "{}: this is not YAML: {}", file, error.what());
-  }
-}
 
 std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> keys;
@@ -103,7 +91,7 @@ std::string origin_of(const Override& change) {
 
 Status apply(const YAML::Node& root, const Override& change) {
   const std::string where = origin_of(change);
-  Result<YAML::Node> value = load(change.value, where);
+  Result<YAML::Node> value = read_yaml_document(change.value, where);
   if (!value) return forward_error(value);
   const std::vector<std::string> keys = split_path(change.path);
   YAML::Node node = root;
@@ -128,12 +116,13 @@ Status apply(const YAML::Node& root, const Override& change) {
 }
 
 constexpr int kMostBases = 8;
-constexpr std::uintmax_t kLargestBase = 16u << 20;
+constexpr std::size_t kMostOverrides = 1000;  // every value asks all of them where it comes from
 
 /// The config that `root`'s key `base` names, and in `overrides`, before what is there already,
 /// what `root` replaces in it.
 Result<std::string> read_base(const YAML::Node& root, const std::string& file,
-                              std::filesystem::path& base_file, std::vector<Override>& overrides) {
+                              const AllowedFolders& allowed, std::filesystem::path& base_file,
+                              std::vector<Override>& overrides) {
   const auto fault = [&](const YAML::Node& node, const std::string& key,
                          const std::string& message) {
     return fail(ErrorKind::kInput, "{}: {}", yaml_place(file, node.Mark(), key).text(), message);
@@ -158,17 +147,20 @@ Result<std::string> read_base(const YAML::Node& root, const std::string& file,
   const YAML::Node base = root["base"];
   if (!base.IsScalar()) return fault(base, "base", "expected the path of a config");
   base_file = std::filesystem::path(file).parent_path() / base.Scalar();
+  if (Status inside = allowed.check(base_file, "'" + base.Scalar() + "'"); !inside) {
+    return fault(base, "base", inside.error().message);
+  }
   std::error_code missing;
   if (!std::filesystem::is_regular_file(base_file, missing)) {
     return fault(
         base, "base",
         "there is no config " + base_file.string() + " (paths start at the config's folder)");
   }
-  if (std::filesystem::file_size(base_file, missing) > kLargestBase) {
-    return fault(base, "base", base_file.string() + " is larger than 16 MiB");
-  }
-  Result<std::string> text = read_file(base_file);
+  Result<std::string> text = read_file(base_file, kLargestConfig);
   if (!text) return fault(base, "base", text.error().message);
+  if (own.size() + overrides.size() > kMostOverrides) {
+    return fault(base, "set", fmt::format("at most {} values can be replaced", kMostOverrides));
+  }
   overrides.insert(overrides.begin(), own.begin(), own.end());
   return text;
 }
@@ -185,13 +177,18 @@ Result<Override> parse_override(const std::string& text) {
 }
 
 Result<ConfigNode> ConfigNode::parse(const std::string& text, const std::string& file,
-                                     const std::vector<Override>& overrides) {
-  return parse(text, file, overrides, 0);
+                                     std::vector<Override> overrides, AllowedFolders allowed) {
+  std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  allowed.add(folder);
+  return parse(text,
+               {file, std::move(overrides), std::move(folder), std::move(allowed),
+                std::make_shared<std::vector<std::filesystem::path>>()},
+               0);
 }
 
-Result<ConfigNode> ConfigNode::parse(const std::string& text, const std::string& file,
-                                     std::vector<Override> overrides, int bases) {
-  Result<YAML::Node> root = load(text, file);
+Result<ConfigNode> ConfigNode::parse(const std::string& text, Source source, int bases) {
+  const std::string& file = source.file;
+  Result<YAML::Node> root = read_yaml_document(text, file);
   if (!root) return forward_error(root);
   Diagnostics errors;
   TreeCheck(file, errors).walk(*root, "", 0);
@@ -202,12 +199,15 @@ Result<ConfigNode> ConfigNode::parse(const std::string& text, const std::string&
                   kMostBases);
     }
     std::filesystem::path base_file;
-    const Result<std::string> base = read_base(*root, file, base_file, overrides);
+    const Result<std::string> base =
+        read_base(*root, file, source.allowed, base_file, source.overrides);
     if (!base) return forward_error(base);
-    return parse(*base, base_file.string(), std::move(overrides), bases + 1);
+    source.file = base_file.string();
+    source.named->push_back(base_file);
+    return parse(*base, std::move(source), bases + 1);
   }
   try {
-    for (const Override& change : overrides) {
+    for (const Override& change : source.overrides) {
       if (Status applied = apply(*root, change); !applied) return forward_error(applied);
     }
   } catch (const YAML::Exception& error) {
@@ -215,7 +215,7 @@ Result<ConfigNode> ConfigNode::parse(const std::string& text, const std::string&
   }
   TreeCheck(file, errors).walk(*root, "", 0);
   if (!errors.empty()) return tl::unexpected(errors.as_error());
-  return ConfigNode(*root, "", std::make_shared<Source>(Source{file, overrides}));
+  return ConfigNode(*root, "", std::make_shared<const Source>(std::move(source)));
 }
 
 std::string ConfigNode::description() const {
@@ -271,6 +271,19 @@ Place ConfigNode::place() const {
     return place;
   }
   return yaml_place(source_->file, node_.Mark(), path_);
+}
+
+std::optional<std::filesystem::path> ConfigNode::named_path(Diagnostics& errors) const {
+  if (!is_scalar() || text().empty()) {
+    errors.add(place(), "expected a path, found " + description());
+    return std::nullopt;
+  }
+  std::filesystem::path path = source_->folder / text();
+  const Status inside = source_->allowed.check(path, "'" + text() + "'");
+  source_->named->push_back(path);
+  if (inside) return path;
+  errors.add(place(), inside.error().message);
+  return std::nullopt;
 }
 
 void ConfigNode::refuse_unknown_keys(const std::vector<std::string>& known,

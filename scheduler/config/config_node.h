@@ -1,6 +1,7 @@
 // A YAML node that knows where it stands.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "base/allowed_folders.h"
 #include "config/diagnostics.h"
 
 namespace seedframe {
@@ -29,11 +31,13 @@ class ConfigNode {
  public:
   /// Parses a YAML document and applies the overrides. A document with the key `base` is another
   /// config with some values replaced: that file is read (`base` starts at this file's folder), and
-  /// what stands below `set` is applied as overrides. Errors: not YAML (with line and column),
-  /// keys that stand twice, more than a million nodes (as alias bombs have), an override through a
-  /// value that has no keys.
+  /// what stands below `set` is applied as overrides. The folder of `file` is allowed, whatever
+  /// else is. Errors: not YAML (with line and column), keys that stand twice, more than a million
+  /// nodes (as alias bombs have), an override through a value that has no keys, a base outside of
+  /// the allowed folders.
   static Result<ConfigNode> parse(const std::string& text, const std::string& file,
-                                  const std::vector<Override>& overrides = {});
+                                  std::vector<Override> overrides = {},
+                                  AllowedFolders allowed = {});
 
   bool is_map() const { return node_.IsMap(); }
   bool is_list() const { return node_.IsSequence(); }
@@ -51,19 +55,28 @@ class ConfigNode {
 
   Place place() const;
   const std::string& path() const { return path_; }
-  /// The config's path as given, also for what comes from an override.
-  const std::string& file() const { return source_->file; }
+
+  /// The file or folder that a scalar names; a relative path starts at the folder of the config
+  /// that was given. An error, and nothing, if it is no text or leads out of the allowed folders.
+  std::optional<std::filesystem::path> named_path(Diagnostics& errors) const;
+
+  /// The files and folders that were read or named so far, in this config and its bases: what
+  /// follows from it depends on them.
+  const std::vector<std::filesystem::path>& named_files() const { return *source_->named; }
 
   /// Says of every key that is not among `known` that it is unknown, with "did you mean".
   void refuse_unknown_keys(const std::vector<std::string>& known, Diagnostics& errors) const;
 
  private:
-  static Result<ConfigNode> parse(const std::string& text, const std::string& file,
-                                  std::vector<Override> overrides, int bases);
   struct Source {
-    std::string file;
+    std::string file;  ///< in which the nodes stand
     std::vector<Override> overrides;
+    std::filesystem::path folder;  ///< at which relative paths start
+    AllowedFolders allowed;
+    /// Shared, since nodes are handed out by value and read in any order.
+    std::shared_ptr<std::vector<std::filesystem::path>> named;
   };
+  static Result<ConfigNode> parse(const std::string& text, Source source, int bases);
   ConfigNode(const YAML::Node& node, std::string path, std::shared_ptr<const Source> source)
       : node_(node), path_(std::move(path)), source_(std::move(source)) {}
   ConfigNode child(const YAML::Node& node, std::string path) const {

@@ -32,6 +32,15 @@ bool is_control(unsigned byte) {
 
 }  // namespace
 
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text, i);
+    if (length == 0) return false;
+    i += length;
+  }
+  return true;
+}
+
 Status check_config_text(std::string_view text, const std::string& file) {
   std::size_t line = 1;
   std::size_t column = 1;
@@ -47,6 +56,10 @@ Status check_config_text(std::string_view text, const std::string& file) {
     if (byte == '\n') {
       ++line;
       column = 1;
+    }
+    if (column > kLongestLine) {
+      return fail(ErrorKind::kInput, "{}:{}: the line has more than {} characters", file, line,
+                  kLongestLine);
     }
   }
   return {};

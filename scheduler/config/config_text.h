@@ -1,6 +1,8 @@
 // What is looked at in texts before anybody makes sense of them.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,8 +11,17 @@
 
 namespace seedframe {
 
+/// In bytes.
+inline constexpr std::uintmax_t kLargestConfig = 16u << 20;
+
+/// Characters: yaml-cpp keeps each bracket of a line until it knows whether it begins a key.
+inline constexpr std::size_t kLongestLine = 1u << 20;
+
+bool is_utf8(std::string_view text);
+
 /// Errors (kInput, with line and column): bytes that are not UTF-8, which no JSON could hold later,
-/// and control characters other than tabs and ends of lines: to yaml-cpp some of them are the end.
+/// and control characters other than tabs and ends of lines: to yaml-cpp some of them are the end;
+/// and lines longer than kLongestLine.
 Status check_config_text(std::string_view text, const std::string& file);
 
 /// A decimal number such as "3", "-0.5", "+2", "1e-3", or none. One that is too large is infinite,

@@ -11,11 +11,14 @@
 namespace seedframe {
 namespace {
 
-constexpr std::size_t kLargestFile = 256u << 20;
+constexpr std::size_t kLargestTable = 256u << 20;  // bytes
+constexpr std::size_t kMostColumns = 10'000;
+constexpr std::size_t kMostRows = 10'000'000;
 
 /// Takes one record off the front of `text`; a quoted field may hold commas, quotes ("") and line
-/// breaks. `lines` counts the line breaks that were passed.
-std::vector<std::string> take_record(std::string_view& text, std::size_t& lines) {
+/// breaks. `lines` counts the line breaks that were passed. Fields behind the first `most` become
+/// one.
+std::vector<std::string> take_record(std::string_view& text, std::size_t& lines, std::size_t most) {
   std::vector<std::string> fields(1);
   bool quoted = false;
   std::size_t i = 0;
@@ -34,7 +37,7 @@ std::vector<std::string> take_record(std::string_view& text, std::size_t& lines)
     } else if (c == '"') {
       quoted = true;
     } else if (c == ',') {
-      fields.emplace_back();
+      if (fields.size() <= most) fields.emplace_back();
     } else if (c == '\n') {
       ++i;
       break;
@@ -61,15 +64,15 @@ Result<std::vector<double>> read_csv_column(const std::filesystem::path& file,
     return fail(ErrorKind::kInput, "there is no file {} (paths start at the config's folder)",
                 file.string());
   }
-  if (std::filesystem::file_size(file, error) > kLargestFile) {
-    return fail(ErrorKind::kInput, "{} is larger than 256 MiB", file.string());
-  }
-  const Result<std::string> content = read_file(file);
+  const Result<std::string> content = read_file(file, kLargestTable);
   if (!content) return fail(ErrorKind::kInput, "{}", content.error().message);
   std::string_view text = *content;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
   std::size_t line = 1;
-  std::vector<std::string> names = take_record(text, line);
+  std::vector<std::string> names = take_record(text, line, kMostColumns);
+  if (names.size() > kMostColumns) {
+    return fail(ErrorKind::kInput, "{} has more than {} columns", file.string(), kMostColumns);
+  }
   for (std::string& name : names) name = std::string(trimmed(name));
   const auto found = std::find(names.begin(), names.end(), column);
   if (found == names.end()) {
@@ -80,7 +83,7 @@ Result<std::vector<double>> read_csv_column(const std::filesystem::path& file,
   std::vector<double> values;
   while (!text.empty()) {
     const std::size_t row = line;
-    const std::vector<std::string> fields = take_record(text, line);
+    const std::vector<std::string> fields = take_record(text, line, index + 1);
     if (fields.size() == 1 && trimmed(fields[0]).empty()) continue;  // an empty line
     const std::string_view cell =
         index < fields.size() ? trimmed(fields[index]) : std::string_view();
@@ -89,6 +92,9 @@ Result<std::vector<double>> read_csv_column(const std::filesystem::path& file,
       constexpr std::size_t kMostShown = 60;
       return fail(ErrorKind::kInput, "{}:{}: column '{}' wants a finite number, found '{}'",
                   file.string(), row, column, cell.substr(0, kMostShown));
+    }
+    if (values.size() == kMostRows) {
+      return fail(ErrorKind::kInput, "{} has more than {} rows", file.string(), kMostRows);
     }
     values.push_back(*value);
   }

@@ -1,8 +1,14 @@
 #include "config/diagnostics.h"
 
-#include <algorithm>
+#include "base/message_text.h"
 
 namespace seedframe {
+namespace {
+
+constexpr std::size_t kMostShown = 20;
+constexpr std::size_t kLongestMessage = 4000;  // bytes; a formula may have 2,000
+
+}  // namespace
 
 std::string Place::text() const {
   std::string out = file;
@@ -12,19 +18,18 @@ std::string Place::text() const {
 }
 
 void Diagnostics::add(const Place& place, const std::string& message) {
-  messages_.push_back(place.text() + ": " + message);
+  ++size_;
+  if (messages_.size() == kMostShown) return;
+  messages_.push_back(shortened(place.text() + ": " + message, kLongestMessage));
 }
 
 Error Diagnostics::as_error() const {
-  constexpr std::size_t kMostShown = 20;
   std::string text;
-  for (std::size_t i = 0; i < std::min(messages_.size(), kMostShown); ++i) {
-    if (i > 0) text += '\n';
-    text += messages_[i];
+  for (const std::string& message : messages_) {
+    if (!text.empty()) text += '\n';
+    text += message;
   }
-  if (messages_.size() > kMostShown) {
-    text += fmt::format("\n… and {} more", messages_.size() - kMostShown);
-  }
+  if (size_ > kMostShown) text += fmt::format("\n… and {} more", size_ - kMostShown);
   return {ErrorKind::kInput, text};
 }
 

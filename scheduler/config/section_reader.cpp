@@ -156,6 +156,14 @@ bool is_identifier(const std::string& name) {
   return true;
 }
 
+bool check_entry_count(const ConfigNode& node, Diagnostics& errors) {
+  constexpr std::size_t kMost = 10'000;
+  const std::size_t count = node.entries().size();
+  if (count <= kMost) return true;
+  errors.add(node.place(), fmt::format("at most {} names are possible, found {}", kMost, count));
+  return false;
+}
+
 MaterialSource read_material_source(const ConfigNode& node, Diagnostics& errors) {
   if (!node.find("realistic_share")) return read_name(node, errors);
   MaterialShareConfig share;
@@ -173,6 +181,7 @@ std::vector<VariableConfig> read_variables(const ConfigNode& node, Diagnostics& 
   if (!node.is_map() && !node.is_null()) {
     errors.add(node.place(), "expected a mapping of variables, found " + node.description());
   }
+  if (!check_entry_count(node, errors)) return variables;
   for (const auto& [name, value] : node.entries()) {
     if (!is_identifier(name)) {
       errors.add(value.place(),

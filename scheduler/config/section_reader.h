@@ -53,6 +53,10 @@ class SectionReader {
 std::vector<VariableConfig> read_variables(const ConfigNode& node, Diagnostics& errors);
 bool is_identifier(const std::string& name);
 
+/// More than 10,000 entries are an error, and false: each may take kilobytes, and variables that
+/// need each other are followed one within the other.
+bool check_entry_count(const ConfigNode& node, Diagnostics& errors);
+
 MaterialSource read_material_source(const ConfigNode& node, Diagnostics& errors);
 
 /// The mapping below a key, whose keys are identifiers of the user's choice, in the file's order.
@@ -66,6 +70,7 @@ std::vector<T> read_named(SectionReader& section, const char* key,
     section.errors().add(node->place(),
                          "expected a mapping of names, found " + node->description());
   }
+  if (!check_entry_count(*node, section.errors())) return list;
   for (const auto& [name, body] : node->entries()) {
     if (!is_identifier(name)) {
       section.errors().add(body.place(),

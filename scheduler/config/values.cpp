@@ -139,15 +139,16 @@ NumberSource read_empirical(const ConfigNode& node, Diagnostics& errors) {
   distribution->kind = DistributionKind::kEmpirical;
   const auto parts = read_pair(node, "empirical", {"file", "column"}, errors);
   if (!parts) return {node.place(), 0.0};
-  for (const ConfigNode& part : *parts) {
-    if (part.is_scalar() && !part.text().empty()) continue;
-    errors.add(part.place(), "expected a text, found " + part.description());
+  const auto& [file, column] = *parts;
+  const auto path = file.named_path(errors);
+  if (!path) return {node.place(), 0.0};
+  if (!column.is_scalar() || column.text().empty()) {
+    errors.add(column.place(), "expected a text, found " + column.description());
     return {node.place(), 0.0};
   }
-  const std::filesystem::path folder = std::filesystem::path(node.file()).parent_path();
-  auto samples = read_csv_column(folder / (*parts)[0].text(), (*parts)[1].text());
+  auto samples = read_csv_column(*path, column.text());
   if (!samples) {
-    errors.add((*parts)[0].place(), samples.error().message);
+    errors.add(file.place(), samples.error().message);
     return {node.place(), 0.0};
   }
   distribution->samples = std::make_shared<const std::vector<double>>(std::move(*samples));

@@ -29,9 +29,11 @@ std::vector<std::string> class_folders(const std::vector<std::string>& categorie
     std::string name = categories[k].substr(0, kLongest);
     std::replace_if(
         name.begin(), name.end(), [](char c) { return !is_plain(c); }, '_');
-    if (name != categories[k] || name.empty() || name.front() == '.' ||
-        !taken.insert(lower_case(name)).second) {
-      if (!name.empty() && name.front() == '.') name.front() = '_';
+    // What begins with '-' is an option to the tools that go through a dataset, and Windows drops a
+    // '.' at the end.
+    if (!name.empty() && (name.front() == '.' || name.front() == '-')) name.front() = '_';
+    if (!name.empty() && name.back() == '.') name.back() = '_';
+    if (name != categories[k] || name.empty() || !taken.insert(lower_case(name)).second) {
       name += '~';
       name += std::to_string(k + 1);
     }

@@ -243,6 +243,15 @@ Result<std::unique_ptr<ExportFormat>> make_voc(const Dataset& dataset,
     return fail(ErrorKind::kInput, "VOC's palette has room for {} classes, the campaign has {}",
                 kMostIndices, dataset.categories.size());
   }
+  for (const std::string& category : dataset.categories) {
+    // Readers split its lines at ':' and take what begins with '#' for a comment.
+    if (category.find_first_of(":\n\r") == std::string::npos && !category.starts_with('#'))
+      continue;
+    return fail(ErrorKind::kInput,
+                "voc's labelmap.txt cannot name the class '{}': it has a ':' or the end of a line, "
+                "or begins with '#'; export to another format",
+                category);
+  }
   return std::make_unique<Voc>(dataset);
 }
 

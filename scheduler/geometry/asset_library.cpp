@@ -38,6 +38,17 @@ Result<std::vector<std::string>> find_assets(const fs::path& root) {
   return names;
 }
 
+Status check_files(const fs::path& folder, const AllowedFolders& allowed) {
+  if (Status inside = allowed.check(folder, folder.string()); !inside) return inside;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& file = entry->path();
+    if (Status inside = allowed.check(file, file.string()); !inside) return inside;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Asset> read_asset(const fs::path& folder) {
@@ -65,6 +76,7 @@ Result<Asset> read_asset(const fs::path& folder) {
 }
 
 struct AssetLibrary::State {
+  AllowedFolders allowed;
   std::map<std::string, fs::path> folders;
   std::mutex mutex;
   // Guarded by mutex.
@@ -74,8 +86,11 @@ struct AssetLibrary::State {
 
 AssetLibrary::AssetLibrary(std::shared_ptr<State> state) : state_(std::move(state)) {}
 
-Result<AssetLibrary> AssetLibrary::open(const std::vector<fs::path>& roots) {
+Result<AssetLibrary> AssetLibrary::open(const std::vector<fs::path>& roots,
+                                        AllowedFolders allowed) {
   auto state = std::make_shared<State>();
+  state->allowed = std::move(allowed);
+  for (const fs::path& root : roots) state->allowed.add(root);
   for (const fs::path& root : roots) {
     const auto names = find_assets(root);
     if (!names) return forward_error(names);
@@ -92,18 +107,23 @@ std::vector<std::string> AssetLibrary::names() const {
 
 Result<fs::path> AssetLibrary::folder(const std::string& name) const {
   const auto found = state_->folders.find(name);
-  if (found != state_->folders.end()) return found->second;
-  return fail(ErrorKind::kInput, "there is no asset '{}'{}", name, did_you_mean(name, names()));
+  if (found == state_->folders.end()) {
+    return fail(ErrorKind::kInput, "there is no asset '{}'{}", name, did_you_mean(name, names()));
+  }
+  if (Status inside = check_files(found->second, state_->allowed); !inside) {
+    return forward_error(inside);
+  }
+  return found->second;
 }
 
 Result<std::shared_ptr<const Asset>> AssetLibrary::load(const std::string& name) const {
-  const auto asset_folder = folder(name);
-  if (!asset_folder) return forward_error(asset_folder);
   // Held while reading: two threads that want one asset must not both decode it.
   const std::lock_guard lock(state_->mutex);
   if (const auto found = state_->loaded.find(name); found != state_->loaded.end()) {
     return found->second;
   }
+  const auto asset_folder = folder(name);
+  if (!asset_folder) return forward_error(asset_folder);
   auto asset = read_asset(*asset_folder);
   if (!asset) return forward_error(asset);
   auto shared = std::make_shared<const Asset>(std::move(*asset));
@@ -113,13 +133,13 @@ Result<std::shared_ptr<const Asset>> AssetLibrary::load(const std::string& name)
 
 Result<std::shared_ptr<const LevelMesh>> AssetLibrary::load_level(const std::string& name,
                                                                   std::size_t level) const {
-  const auto asset_folder = folder(name);
-  if (!asset_folder) return forward_error(asset_folder);
   const std::lock_guard lock(state_->mutex);
   const auto key = std::pair(name, level);
   if (const auto found = state_->levels.find(key); found != state_->levels.end()) {
     return found->second;
   }
+  const auto asset_folder = folder(name);
+  if (!asset_folder) return forward_error(asset_folder);
   const auto description = read_asset_description(*asset_folder);
   if (!description) return forward_error(description);
   if (level >= description->levels.size()) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/allowed_folders.h"
 #include "base/error.h"
 #include "geometry/keypoints.h"
 #include "geometry/mesh.h"
@@ -49,8 +50,11 @@ struct Asset {
 /// copy (copies share their cache), safe to use from several threads.
 class AssetLibrary {
  public:
-  /// A root that is not a folder is an error. Looks for names only; meshes are read by load.
-  static Result<AssetLibrary> open(const std::vector<std::filesystem::path>& roots);
+  /// A root that is not a folder is an error. Looks for names only; meshes are read by load. Files
+  /// of an asset lie in one of the roots or in an allowed folder, also after symbolic links are
+  /// followed; folder() and load() refuse an asset with others (kInput).
+  static Result<AssetLibrary> open(const std::vector<std::filesystem::path>& roots,
+                                   AllowedFolders allowed = {});
 
   /// Sorted.
   std::vector<std::string> names() const;

@@ -1,6 +1,8 @@
 // A mesh as CGAL's half-edge structure. Heavy: for the .cpp files that call CGAL only.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -14,6 +16,8 @@ using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using CgalSurface = CGAL::Surface_mesh<CgalKernel::Point_3>;
 
 inline CgalKernel::Point_3 cgal_point(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+inline CgalKernel::Point_3 cgal_point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+inline Eigen::Vector3d vector_of(const CgalKernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Vertices and faces have the mesh's numbers. Nothing unless the mesh is an oriented manifold.
 inline std::optional<CgalSurface> cgal_surface(const Mesh& mesh) {

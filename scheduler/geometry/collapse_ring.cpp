@@ -10,8 +10,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-Vector vector_of(const CgalKernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
-
 void append(TracedSurface::Samples& to, const TracedSurface::Samples& from) {
   to.insert(to.end(), from.begin(), from.end());
 }

@@ -6,27 +6,21 @@
 #include <memory>
 #include <vector>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-
 #include "geometry/cgal_surface.h"
+#include "geometry/triangle_tree.h"
 #include "geometry/uv_charts.h"
 
 namespace seedframe {
 
 /// What does not change while a mesh is simplified.
 struct SimplifyOriginal {
-  using Triangles = std::vector<CgalKernel::Triangle_3>;
-  using Primitive = CGAL::AABB_triangle_primitive<CgalKernel, Triangles::const_iterator>;
-
   Mesh mesh;
   MeshParts charts;
   /// Points of the surface that must stay near: its vertices by their numbers, then the middles of
   /// its edges and of its triangles.
   std::vector<Eigen::Vector3d> samples;
-  Triangles triangles;  ///< those with an area
-  CGAL::AABB_tree<CGAL::AABB_traits<CgalKernel, Primitive>> tree;
+  CgalTriangles triangles;  ///< those with an area
+  TriangleTree tree;
   std::unique_ptr<UvSource> uvs;
 };
 

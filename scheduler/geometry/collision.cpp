@@ -6,22 +6,13 @@
 #include <iterator>
 #include <vector>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "geometry/triangle_tree.h"
 
 namespace seedframe {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Triangle = Kernel::Triangle_3;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
-using AabbTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
-Point to_point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-Eigen::Vector3d to_vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
+using Point = CgalKernel::Point_3;
+using Triangle = CgalKernel::Triangle_3;
 
 /// The box that holds a box after a map.
 BoundingBox mapped(const BoundingBox& box, const Eigen::Affine3d& map) {
@@ -39,8 +30,8 @@ bool overlap(const BoundingBox& a, const BoundingBox& b, double gap) {
 }  // namespace
 
 struct SolidMesh::Tree {
-  std::vector<Triangle> triangles;
-  AabbTree tree;
+  CgalTriangles triangles;
+  TriangleTree tree;
 };
 
 SolidMesh::SolidMesh(const Mesh& mesh) : tree_(std::make_unique<Tree>()) {
@@ -63,7 +54,7 @@ namespace {
 /// An odd number of crossings on the way out: inside. The direction is no axis, so that rays seldom
 /// run along edges.
 bool inside(const Point& point, const SolidMesh::Tree& solid) {
-  const Kernel::Ray_3 ray(point, Kernel::Vector_3(0.5377, 0.2113, 0.8163));
+  const CgalKernel::Ray_3 ray(point, CgalKernel::Vector_3(0.5377, 0.2113, 0.8163));
   return solid.tree.number_of_intersected_primitives(ray) % 2 == 1;
 }
 
@@ -88,12 +79,12 @@ bool is_near(const Point& point, const SolidInstance& b, const Stretch& stretch,
   }
   // Distances in the space of b are not those of the world: only what may be near is measured.
   const double reach = gap_m / stretch.least;
-  const Kernel::Vector_3 corner(reach, reach, reach);
-  std::vector<AabbTree::Primitive_id> candidates;
-  solid.tree.all_intersected_primitives(Kernel::Iso_cuboid_3(point - corner, point + corner),
+  const CgalKernel::Vector_3 corner(reach, reach, reach);
+  std::vector<TriangleTree::Primitive_id> candidates;
+  solid.tree.all_intersected_primitives(CgalKernel::Iso_cuboid_3(point - corner, point + corner),
                                         std::back_inserter(candidates));
   const auto in_world = [&](const Point& p) {
-    return to_point(b.world_from_object * to_vector(p));
+    return cgal_point(b.world_from_object * vector_of(p));
   };
   return std::any_of(candidates.begin(), candidates.end(), [&](const auto& triangle) {
     const Triangle moved(in_world((*triangle)[0]), in_world((*triangle)[1]),
@@ -113,8 +104,8 @@ bool meets(const SolidInstance& a, const SolidInstance& b, double gap_m) {
     std::array<Point, 3> corners;
     BoundingBox box{Eigen::Vector3d::Constant(1e300), Eigen::Vector3d::Constant(-1e300)};
     for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d corner = b_from_a * to_vector(triangle[i]);
-      corners[static_cast<std::size_t>(i)] = to_point(corner);
+      const Eigen::Vector3d corner = b_from_a * vector_of(triangle[i]);
+      corners[static_cast<std::size_t>(i)] = cgal_point(corner);
       box.low = box.low.cwiseMin(corner);
       box.high = box.high.cwiseMax(corner);
     }
@@ -126,7 +117,7 @@ bool meets(const SolidInstance& a, const SolidInstance& b, double gap_m) {
       if (is_near(corner, b, stretch, gap_m)) return true;
     }
   }
-  return inside(to_point(b_from_a * to_vector(tree_a.triangles.front()[0])), tree_b);
+  return inside(cgal_point(b_from_a * vector_of(tree_a.triangles.front()[0])), tree_b);
 }
 
 }  // namespace

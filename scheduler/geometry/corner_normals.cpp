@@ -11,7 +11,7 @@ namespace seedframe {
 namespace {
 
 using Eigen::Vector3d;
-using Triangle = std::array<std::uint32_t, 3>;
+using CornerIndices = std::array<std::uint32_t, 3>;
 
 /// Sets that grow together: corner 3t + k stands for corner k of triangle t.
 class CornerSets {
@@ -43,7 +43,7 @@ std::size_t next_corner(std::size_t corner) { return corner % 3 == 2 ? corner - 
 
 class Shading {
  public:
-  Shading(std::span<const std::array<float, 3>> positions, std::span<const Triangle> triangles)
+  Shading(std::span<const std::array<float, 3>> positions, std::span<const CornerIndices> triangles)
       : positions_(positions), triangles_(triangles), normals_(triangles.size()) {
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const Vector3d a = point(3 * t);
@@ -106,7 +106,7 @@ class Shading {
   }
 
   std::span<const std::array<float, 3>> positions_;
-  std::span<const Triangle> triangles_;
+  std::span<const CornerIndices> triangles_;
   std::vector<Vector3d> normals_;  ///< of the triangles
 };
 

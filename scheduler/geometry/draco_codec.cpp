@@ -10,6 +10,8 @@
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
 
+#include "geometry/draco_header.h"
+
 namespace seedframe {
 namespace {
 
@@ -96,6 +98,9 @@ std::array<T, N> value_at(const PointAttribute& attribute, PointIndex point) {
 }
 
 Result<std::unique_ptr<draco::Mesh>> decode(std::string_view bytes, const std::string& what) {
+  if (const char* fault = draco_header_fault(bytes)) {
+    return fail(ErrorKind::kCorrupt, "{} is not a readable Draco mesh: {}", what, fault);
+  }
   // Draco, and the allocations that a damaged count asks of it, may throw.
   try {
     draco::DecoderBuffer buffer;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/allowed_folders.h"
 #include "base/files.h"
 #include "geometry/byte_reader.h"
 
@@ -59,16 +60,6 @@ std::string percent_decoded(const std::string& uri) {
     if (escape) i += 2;
   }
   return text;
-}
-
-// Inside the folder also after symbolic links are followed.
-bool is_below(const fs::path& folder, const fs::path& file) {
-  std::error_code error;
-  const fs::path root = fs::weakly_canonical(folder, error);
-  const fs::path target = fs::weakly_canonical(file, error);
-  if (error) return false;
-  const fs::path relative = target.lexically_relative(root);
-  return !relative.empty() && *relative.begin() != "..";
 }
 
 struct ComponentType {
@@ -230,7 +221,7 @@ Result<std::string> GltfFile::load_buffer(const Json& buffer, bool first, const 
     const fs::path relative = percent_decoded(text);
     const fs::path path = folder / relative;
     if (relative.empty() || relative.is_absolute() || text.find(':') != std::string::npos ||
-        text.find('\0') != std::string::npos || !is_below(folder.empty() ? "." : folder, path)) {
+        text.find('\0') != std::string::npos || !AllowedFolders({folder}).check(path, text)) {
       return fail_at(place, "'{}' is not a file in the folder of the glTF file",
                      text.substr(0, 200));
     }

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "base/message_text.h"
+
 namespace seedframe {
 namespace {
 
@@ -38,8 +40,10 @@ Status check_keypoints(const KeypointSet& keypoints, const std::string& what) {
   }
   std::set<std::string> names;
   for (const Keypoint& point : keypoints.points) {
-    if (point.name.empty()) {
-      return fail(ErrorKind::kInput, "{}: a keypoint needs a name", what);
+    if (!is_one_line_name(point.name)) {
+      return fail(ErrorKind::kInput,
+                  "{}: a keypoint needs a name, of one line and at most 200 bytes, found '{}'",
+                  what, shortened(point.name, 200));
     }
     if (!names.insert(point.name).second) {
       return fail(ErrorKind::kInput, "{}: two keypoints are named '{}'", what, point.name);

@@ -30,6 +30,7 @@ void append(std::string& bytes, const T& value) {
 // Takes values off the front of `bytes`, whose length has been checked.
 template <class T>
 void take(std::string_view& bytes, std::span<T> values) {
+  if (values.empty()) return;  // memcpy wants an address even for no bytes
   std::memcpy(values.data(), bytes.data(), values.size_bytes());
   bytes.remove_prefix(values.size_bytes());
 }

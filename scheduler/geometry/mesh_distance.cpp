@@ -5,13 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-
 #include "geometry/cgal_guard.h"
 #include "geometry/cgal_surface.h"
 #include "geometry/triangle_distance.h"
+#include "geometry/triangle_tree.h"
 
 namespace seedframe {
 namespace {
@@ -31,9 +28,6 @@ double distance(const Vector& p, const Corners& t) {
 
 // The triangles with an area, and a tree of them.
 struct Surface {
-  using Triangles = std::vector<CgalKernel::Triangle_3>;
-  using Primitive = CGAL::AABB_triangle_primitive<CgalKernel, Triangles::const_iterator>;
-
   explicit Surface(const Mesh& mesh) {
     for (const auto& triangle : mesh.triangles) {
       std::array<CgalKernel::Point_3, 3> points;
@@ -62,7 +56,7 @@ struct Surface {
   std::vector<std::uint32_t> within(const Box& box, double reach) const {
     const Vector low = box.min().array() - reach;
     const Vector high = box.max().array() + reach;
-    std::vector<Triangles::const_iterator> found;
+    std::vector<CgalTriangles::const_iterator> found;
     tree.all_intersected_primitives(
         CgalKernel::Iso_cuboid_3({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}),
         std::back_inserter(found));
@@ -74,10 +68,10 @@ struct Surface {
     return numbers;
   }
 
-  Triangles triangles;
+  CgalTriangles triangles;
   std::vector<Corners> corners;
   std::vector<Box> boxes;
-  CGAL::AABB_tree<CGAL::AABB_traits<CgalKernel, Primitive>> tree;
+  TriangleTree tree;
 };
 
 // The greatest distance of a point of one surface from the other one, from below and above.

@@ -5,21 +5,17 @@
 #include <optional>
 #include <utility>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 
 #include "geometry/cgal_guard.h"
 #include "geometry/hole_filling.h"
 #include "geometry/mesh_edges.h"
+#include "geometry/triangle_tree.h"
 
 namespace seedframe {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
+using Point = CgalKernel::Point_3;
 
 Point point_of(const Mesh& mesh, std::uint32_t vertex) {
   const auto& p = mesh.positions[vertex];
@@ -223,9 +219,7 @@ Solids find_solids(const Mesh& mesh) {
 // Whether a part lies inside the other closed parts of the mesh: then its inward direction makes it
 // the wall of a cavity.
 bool is_inside_others(const Mesh& mesh, const Solids& solids, std::uint32_t part) {
-  using Triangles = std::vector<Kernel::Triangle_3>;
-  using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-  Triangles others;
+  CgalTriangles others;
   std::optional<Point> seen;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -237,9 +231,9 @@ bool is_inside_others(const Mesh& mesh, const Solids& solids, std::uint32_t part
     }
   }
   if (others.empty() || !seen) return false;
-  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(others.cbegin(), others.cend());
+  const TriangleTree tree(others.cbegin(), others.cend());
   // The direction is no axis, so that the ray seldom runs along edges.
-  const Kernel::Ray_3 ray(*seen, Kernel::Vector_3(0.5377, 0.2113, 0.8163));
+  const CgalKernel::Ray_3 ray(*seen, CgalKernel::Vector_3(0.5377, 0.2113, 0.8163));
   return tree.number_of_intersected_primitives(ray) % 2 == 1;
 }
 

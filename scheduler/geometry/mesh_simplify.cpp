@@ -20,8 +20,6 @@ using Halfedge = TracedSurface::Halfedge;
 using Vertex = TracedSurface::Vertex;
 using Vector = Eigen::Vector3d;
 
-Vector vector_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
-
 // Positions are stored as floats: what is checked is what will be stored.
 boost::optional<Point> as_floats(const boost::optional<Point>& p) {
   if (!p) return p;

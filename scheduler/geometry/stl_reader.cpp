@@ -16,15 +16,13 @@
 namespace seedframe {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 84;  // 80 of text and the number of triangles
+constexpr std::size_t kBinaryHeaderBytes = 84;  // 80 of text and the number of triangles
 constexpr std::size_t kTriangleBytes = 50;
-
-using Triangle = std::array<PolygonCorner, 3>;
 
 Result<Mesh> read_binary(std::string_view bytes, const std::string& file) {
   MeshBuilder builder(file);
   const auto count = value_from<std::uint32_t>(bytes.substr(80));
-  const std::size_t expected = kHeaderBytes + kTriangleBytes * std::size_t{count};
+  const std::size_t expected = kBinaryHeaderBytes + kTriangleBytes * std::size_t{count};
   if (bytes.size() != expected) {
     return builder.fail_at("",
                            "a binary STL of {} triangles takes {} bytes, but there are {}: the "
@@ -34,8 +32,8 @@ Result<Mesh> read_binary(std::string_view bytes, const std::string& file) {
   PositionWelder welder(builder);
   for (std::size_t t = 0; t < count; ++t) {
     // A normal of three floats comes before the corners.
-    std::string_view rest = bytes.substr(kHeaderBytes + t * kTriangleBytes + 12, 36);
-    Triangle triangle;
+    std::string_view rest = bytes.substr(kBinaryHeaderBytes + t * kTriangleBytes + 12, 36);
+    std::array<PolygonCorner, 3> triangle;
     for (PolygonCorner& corner : triangle) {
       std::array<float, 3> position{};
       for (float& value : position) value = *take_value<float>(rest);
@@ -118,11 +116,11 @@ class TextParser {
 
 // Binary files, too, may begin with "solid": what decides is whether the length fits the count.
 bool is_text(std::string_view bytes) {
-  if (bytes.size() >= kHeaderBytes) {
+  if (bytes.size() >= kBinaryHeaderBytes) {
     const auto count = value_from<std::uint32_t>(bytes.substr(80));
-    if (bytes.size() == kHeaderBytes + kTriangleBytes * std::size_t{count}) return false;
+    if (bytes.size() == kBinaryHeaderBytes + kTriangleBytes * std::size_t{count}) return false;
   }
-  const std::string_view start = trimmed(bytes.substr(0, kHeaderBytes));
+  const std::string_view start = trimmed(bytes.substr(0, kBinaryHeaderBytes));
   return start.starts_with("solid") && bytes.substr(0, 1024).find('\0') == std::string_view::npos;
 }
 
@@ -133,10 +131,10 @@ Result<Mesh> read_stl(const std::filesystem::path& path) {
   if (!bytes) return forward_error(bytes);
   const std::string file = path.string();
   if (is_text(*bytes)) return TextParser(file).parse(*bytes);
-  if (bytes->size() < kHeaderBytes) {
+  if (bytes->size() < kBinaryHeaderBytes) {
     return fail(ErrorKind::kInput,
                 "{}: {} bytes are no STL file: expected 'solid' or a header of {} bytes", file,
-                bytes->size(), kHeaderBytes);
+                bytes->size(), kBinaryHeaderBytes);
   }
   return read_binary(*bytes, file);
 }

@@ -3,22 +3,13 @@
 #include <algorithm>
 #include <deque>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include "geometry/triangle_distance.h"
+#include "geometry/triangle_tree.h"
 
 namespace seedframe {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
-Eigen::Vector3d vector_of(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+Eigen::Vector3d position_of(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
 // The UV at the end of a side where the edge's vertex with the lower, or higher, number is.
 const std::array<float, 2>& uv_at_end(const Mesh& mesh, const EdgeUse& side, bool low) {
@@ -47,8 +38,8 @@ MeshParts uv_charts(const Mesh& mesh, const std::vector<EdgeUse>& uses) {
 struct UvSource::Charts {
   struct Chart {
     std::vector<std::uint32_t> numbers;  // of the triangles in the mesh
-    Triangles triangles;
-    Tree tree;
+    CgalTriangles triangles;
+    TriangleTree tree;
   };
   std::deque<Chart> charts;  // trees do not move
 };
@@ -57,7 +48,7 @@ UvSource::UvSource(const Mesh& mesh, const MeshParts& charts)
     : mesh_(mesh), charts_(std::make_unique<Charts>()) {
   for (std::uint32_t chart = 0; chart < charts.count; ++chart) charts_->charts.emplace_back();
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::array<Kernel::Point_3, 3> p;
+    std::array<CgalKernel::Point_3, 3> p;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& at = mesh.positions[mesh.triangles[t][i]];
       p[i] = {at[0], at[1], at[2]};
@@ -89,8 +80,8 @@ std::array<float, 2> UvSource::uv_at(std::uint32_t number, const Eigen::Vector3d
   }
   const auto& [a, b, c] = mesh_.triangles[triangle];
   const Eigen::Vector3d weights =
-      nearest_weights(point, vector_of(mesh_.positions[a]), vector_of(mesh_.positions[b]),
-                      vector_of(mesh_.positions[c]));
+      nearest_weights(point, position_of(mesh_.positions[a]), position_of(mesh_.positions[b]),
+                      position_of(mesh_.positions[c]));
   std::array<float, 2> uv{};
   for (std::size_t axis = 0; axis < 2; ++axis) {
     double sum = 0.0;

@@ -12,6 +12,7 @@
 #include "base/nearest_name.h"
 #include "base/portable_math.h"
 #include "base/sha256.h"
+#include "image/color_tables.h"
 
 namespace seedframe {
 namespace OCIO = OCIO_NAMESPACE;
@@ -141,6 +142,10 @@ Result<ColorManagement> ColorManagement::load(const std::filesystem::path& ocio_
     const auto config = OCIO::Config::CreateFromFile(ocio_config.c_str())->createEditableCopy();
     // OpenColorIO would keep every processor that it ever made, one for each gamma.
     config->setProcessorCacheFlags(OCIO::PROCESSOR_CACHE_OFF);
+    const Status own_tables = check_color_tables(*config, ocio_config.parent_path());
+    if (!own_tables) {
+      return fail(ErrorKind::kInput, "{}: {}", ocio_config.string(), own_tables.error().message);
+    }
     config->validate();
     state->names = read_names(*config);
     state->config = config;

@@ -6,10 +6,13 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 
 #include "base/files.h"
+#include "image/exr_blocks.h"
+#include "image/exr_input.h"
 #include "image/exr_memory.h"
 
 namespace seedframe {
@@ -47,7 +50,7 @@ Status write_exr(const std::filesystem::path& path, const Image<float>& image,
     file.setFrameBuffer(frame_buffer(image, channels));
     file.writePixels(image.height);
   } catch (const std::exception& exception) {
-    return fail(ErrorKind::kEnvironment, "cannot write {} ({} x {} pixels): {}", path.string(),
+    return fail(ErrorKind::kExhausted, "cannot write {} ({} x {} pixels): {}", path.string(),
                 image.width, image.height, exception.what());
   }
   return write_file_unsynced(path, output.bytes());
@@ -55,23 +58,31 @@ Status write_exr(const std::filesystem::path& path, const Image<float>& image,
 
 Result<Image<float>> read_exr_channel(const std::filesystem::path& path,
                                       const std::string& channel) {
-  constexpr int kLargestSide = 1 << 20;
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes) return fail(ErrorKind::kCorrupt, "{}", bytes.error().message);
+  const auto damaged = [&](const char* fault) {
+    return fail(ErrorKind::kCorrupt, "cannot read {}: {}", path.string(), fault);
+  };
+  if (const char* fault = exr_header_fault(*bytes)) return damaged(fault);
   try {
-    Imf::InputFile file(path.c_str(), /*numThreads=*/0);
-    const Imath::Box2i& window = file.header().dataWindow();
-    const Imf::Channel* found = file.header().channels().findChannel(channel);
-    if (found == nullptr || found->type != Imf::FLOAT || window.min != Imath::V2i(0, 0) ||
-        window.max.x < 0 || window.max.y < 0 || window.max.x >= kLargestSide ||
-        window.max.y >= kLargestSide) {
+    ExrMemoryInput stream(*bytes, path.string());
+    Imf::MultiPartInputFile file(stream, /*numThreads=*/0, /*reconstructChunkOffsetTable=*/false);
+    const Imf::Header& header = file.header(0);
+    if (const char* fault = exr_size_fault(header, bytes->size())) return damaged(fault);
+    const Imath::Box2i& window = header.dataWindow();
+    const Imf::Channel* found = header.channels().findChannel(channel);
+    if (found == nullptr || found->type != Imf::FLOAT || window.min != Imath::V2i(0, 0)) {
       return fail(ErrorKind::kCorrupt, "{} is not an image with a float channel '{}'",
                   path.string(), channel);
     }
+    if (const char* fault = exr_block_fault(*bytes, header)) return damaged(fault);
     Image<float> image(window.max.x + 1, window.max.y + 1);
-    file.setFrameBuffer(frame_buffer(image, {channel}));
-    file.readPixels(0, window.max.y);
+    Imf::InputPart part(file, 0);
+    part.setFrameBuffer(frame_buffer(image, {channel}));
+    part.readPixels(0, window.max.y);
     return image;
   } catch (const std::exception& exception) {
-    return fail(ErrorKind::kCorrupt, "cannot read {}: {}", path.string(), exception.what());
+    return damaged(exception.what());
   }
 }
 

@@ -4,27 +4,38 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 
 #include "base/files.h"
+#include "image/exr_input.h"
 #include "image/exr_memory.h"
 
 namespace seedframe {
 
 Status copy_without_metadata(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const auto failed = [&](const std::string& why) {
+    return fail(ErrorKind::kRender, "cannot copy the passes {}: {}", from.string(), why);
+  };
+  const Result<std::string> bytes = read_file(from);
+  if (!bytes) return failed(bytes.error().message);
+  if (const char* fault = exr_header_fault(*bytes)) return failed(fault);
   ExrMemoryOutput output;
   try {
-    Imf::InputFile input(from.c_str(), /*numThreads=*/0);
-    const Imf::Header& original = input.header();
+    ExrMemoryInput stream(*bytes, from.string());
+    Imf::MultiPartInputFile file(stream, /*numThreads=*/0, /*reconstructChunkOffsetTable=*/false);
+    const Imf::Header& original = file.header(0);
+    if (const char* fault = exr_size_fault(original, bytes->size())) return failed(fault);
     Imf::Header header(original.displayWindow(), original.dataWindow(), original.pixelAspectRatio(),
                        original.screenWindowCenter(), original.screenWindowWidth(),
                        original.lineOrder(), original.compression());
     header.channels() = original.channels();
     Imf::OutputFile copy(output, header, /*numThreads=*/0);
+    Imf::InputPart input(file, 0);
     copy.copyPixels(input);
   } catch (const std::exception& error) {
-    return fail(ErrorKind::kRender, "cannot copy the passes {}: {}", from.string(), error.what());
+    return failed(error.what());
   }
   return write_file_unsynced(to, output.bytes());
 }

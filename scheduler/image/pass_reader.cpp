@@ -2,22 +2,22 @@
 
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <exception>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <fmt/format.h>
 
 #include "base/files.h"
+#include "image/exr_blocks.h"
+#include "image/exr_input.h"
 #include "image/pixel_hash.h"
 
 namespace seedframe {
@@ -58,63 +58,6 @@ tl::unexpected<Error> unusable(const fs::path& path, fmt::format_string<Args...>
               fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Throws on every step outside the bytes, as OpenEXR asks of a stream.
-class MemoryInput : public Imf::IStream {
- public:
-  MemoryInput(const std::string& bytes, const std::string& name)
-      : Imf::IStream(name.c_str()), bytes_(bytes) {}
-
-  bool read(char to[], int count) override {
-    const auto size = static_cast<std::size_t>(count);
-    if (count < 0 || position_ > bytes_.size() || size > bytes_.size() - position_) {
-      throw std::runtime_error("the file ends too early");
-    }
-    std::memcpy(to, bytes_.data() + position_, size);
-    position_ += size;
-    return position_ < bytes_.size();
-  }
-  std::uint64_t tellg() override { return position_; }
-  void seekg(std::uint64_t position) override { position_ = position; }
-
- private:
-  const std::string& bytes_;
-  std::uint64_t position_ = 0;
-};
-
-std::uint32_t little_endian_32(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
-}
-
-/// OpenEXR believes the stated length of an attribute and gives it memory before it reads it, up to
-/// 2 GB. So walk the header first (magic, flags, then name, type, length, value of each attribute):
-/// every length must lie inside the file. Returns what is wrong, or null.
-const char* header_fault(std::string_view bytes) {
-  constexpr std::uint32_t kMagic = 20000630;
-  constexpr std::uint32_t kTiled = 0x200, kDeep = 0x800, kMultiPart = 0x1000;
-  if (bytes.empty()) return "the file is empty";
-  if (bytes.size() < 8) return "the file ends inside its header";
-  if (little_endian_32(bytes, 0) != kMagic) return "this is no OpenEXR file";
-  if ((little_endian_32(bytes, 4) & (kTiled | kDeep | kMultiPart)) != 0) {
-    return "expected one part of scan lines, found tiles, deep pixels or several parts";
-  }
-  std::size_t at = 8;
-  while (at < bytes.size() && bytes[at] != '\0') {
-    const std::size_t name_end = bytes.find('\0', at);
-    if (name_end == std::string_view::npos) return "the file ends inside its header";
-    const std::size_t type_end = bytes.find('\0', name_end + 1);
-    if (type_end == std::string_view::npos || bytes.size() - type_end < 5) {
-      return "the file ends inside its header";
-    }
-    const std::size_t value = type_end + 5;
-    const std::size_t length = little_endian_32(bytes, type_end + 1);
-    if (length > bytes.size() - value) return "an attribute is longer than the file";
-    at = value + length;
-  }
-  return at < bytes.size() ? nullptr : "the file ends inside its header";
-}
-
 Status check_header(const fs::path& path, const Imf::Header& header,
                     const PassExpectation& expected) {
   const Imath::Box2i& window = header.dataWindow();
@@ -128,13 +71,20 @@ Status check_header(const fs::path& path, const Imf::Header& header,
     return unusable(path, "expected pixels from (0, 0), found them from ({}, {})", window.min.x,
                     window.min.y);
   }
+  if (!expected.frame_id.empty()) {
+    const auto* note = header.findTypedAttribute<Imf::StringAttribute>("Note");
+    if (note == nullptr || note->value() != expected.frame_id) {
+      return unusable(path, "expected the passes of frame {}, found those of {}",
+                      expected.frame_id.substr(0, 12),
+                      note == nullptr ? "no frame" : note->value().substr(0, 12));
+    }
+  }
   if (header.hasTileDescription()) return unusable(path, "expected scan lines, found tiles");
   switch (header.compression()) {
     case Imf::NO_COMPRESSION:
     case Imf::RLE_COMPRESSION:
     case Imf::ZIPS_COMPRESSION:
     case Imf::ZIP_COMPRESSION:
-    case Imf::PIZ_COMPRESSION:
       break;
     default:
       return unusable(path, "expected a lossless compression (ZIP), found OpenEXR's number {}",
@@ -227,14 +177,18 @@ Result<std::vector<Pass>> read_file_passes(const fs::path& path, const std::stri
   // Frames are read side by side; a pool of OpenEXR's own would only take cores from Blender.
   [[maybe_unused]] static const bool no_pool = (Imf::setGlobalThreadCount(0), true);
   try {
-    MemoryInput stream(bytes, path.string());
+    ExrMemoryInput stream(bytes, path.string());
     Imf::MultiPartInputFile file(stream, 0, false);
     if (Status header = check_header(path, file.header(0), expected); !header) {
       return forward_error(header);
     }
     if (!file.partComplete(0)) return unusable(path, "the file was not written to its end");
     Result<std::vector<Pass>> passes = find_passes(path, file.header(0).channels(), expected);
-    if (passes) read_pixels(file, *passes, expected.height);
+    if (!passes) return passes;
+    if (const char* fault = exr_block_fault(bytes, file.header(0))) {
+      return unusable(path, "cut or damaged: {}", fault);
+    }
+    read_pixels(file, *passes, expected.height);
     return passes;
   } catch (const std::exception& exception) {
     return unusable(path, "cut or damaged: {}", exception.what());
@@ -303,8 +257,9 @@ Result<FramePasses> read_passes(const fs::path& path, const PassExpectation& exp
                     expected.height);
   }
   const Result<std::string> bytes = read_file(path);
+  if (!bytes && bytes.error().kind == ErrorKind::kExhausted) return forward_error(bytes);
   if (!bytes) return unusable(path, "{}", bytes.error().message);
-  if (const char* fault = header_fault(*bytes)) return unusable(path, "{}", fault);
+  if (const char* fault = exr_header_fault(*bytes)) return unusable(path, "{}", fault);
 
   Result<std::vector<Pass>> passes = read_file_passes(path, *bytes, expected);
   if (!passes) return forward_error(passes);

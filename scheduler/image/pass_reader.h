@@ -18,7 +18,8 @@ struct PassExpectation {
   int height = 0;
   bool depth = false;
   bool normal = false;
-  int max_instance_id = 0;  ///< a larger index is an error
+  int max_instance_id = 0;    ///< a larger index is an error
+  std::string frame_id = {};  ///< in the header's "Note"; empty: whatever is there
 };
 
 struct FramePasses {
@@ -32,11 +33,11 @@ struct FramePasses {
 };
 
 /// Passes are found by the end of their channels' names, whatever the view layer is called.
-/// kRender errors: a missing, cut or damaged file, a missing layer or two that could be meant,
-/// another size, lossy compression, NaN or infinite values (the depth of the background is a
-/// number, 1e10 in Blender), an index that is fractional, negative or above max_instance_id. Each
-/// names the file, the pass and the first bad pixel. A lying header is refused before it gets
-/// memory.
+/// kRender errors: another frame's file, a missing, cut or damaged file, a missing layer or two
+/// that could be meant, another size, another compression than ZIP or run lengths, NaN or infinite
+/// values (the depth of the background is a number, 1e10 in Blender), an index that is fractional,
+/// negative or above max_instance_id. Each names the file, the pass and the first bad pixel. A
+/// lying header is refused before it gets memory.
 Result<FramePasses> read_passes(const std::filesystem::path& path, const PassExpectation& expected);
 
 }  // namespace seedframe

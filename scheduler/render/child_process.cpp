@@ -13,6 +13,7 @@
 #include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,6 +28,23 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) result.push_back(const_cast<char*>(text.c_str()));
   result.push_back(nullptr);
   return result;
+}
+
+void limit(decltype(RLIMIT_AS) resource, std::uint64_t most) {
+  if (most == 0) return;
+  rlimit limits = {};
+  if (getrlimit(resource, &limits) != 0) return;
+  limits.rlim_cur = limits.rlim_max = std::min<rlim_t>(most, limits.rlim_max);
+  setrlimit(resource, &limits);
+}
+
+void apply(const ResourceLimits& limits) {
+  limit(RLIMIT_DATA, limits.memory_bytes);
+  limit(RLIMIT_CPU, limits.cpu_s);
+  limit(RLIMIT_FSIZE, limits.file_bytes);
+  limit(RLIMIT_NOFILE, limits.open_files);
+  const rlimit none = {0, 0};
+  setrlimit(RLIMIT_CORE, &none);
 }
 
 // Runs between fork and exec, where only async-signal-safe functions may be called.
@@ -47,6 +65,8 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   signal(SIGPIPE, SIG_DFL);  // ignored signals stay ignored after exec
+
+  apply(command.limits);
 
   // Out of the way of the numbers that they are about to get.
   constexpr int kAbove = 10;

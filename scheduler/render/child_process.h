@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,12 +13,21 @@
 
 namespace seedframe {
 
+/// What a child may use at most (setrlimit); 0: as much as we.
+struct ResourceLimits {
+  std::uint64_t memory_bytes = 0;  ///< of its own, not of files that it maps (RLIMIT_DATA)
+  std::uint64_t cpu_s = 0;         ///< over its whole life, all threads
+  std::uint64_t file_bytes = 0;    ///< of any file that it writes
+  std::uint64_t open_files = 0;
+};
+
 struct ChildCommand {
   std::vector<std::string> arguments;    ///< the first is the program's path
   std::vector<std::string> environment;  ///< "NAME=value", complete
   int output = -1;                       ///< becomes stdout and stderr
   int channel = -1;                      ///< becomes kChildChannel; -1: none
   int cpu = -1;                          ///< the one CPU that it starts on; -1: any of ours
+  ResourceLimits limits;                 ///< and never a core dump
 };
 
 /// The descriptor under which a child finds its channel.

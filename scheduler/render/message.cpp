@@ -26,15 +26,18 @@ tl::unexpected<Error> not_a_message(std::string_view line, const std::string& wh
               quote(line), why);
 }
 
-WorkerMessage read(const Json& json) {
+WorkerMessage read_message(const Json& json) {
   const auto type = json.at("type").get<std::string>();
   if (type == "ready") {
-    return ReadyMessage{json.at("protocol").get<int>(), json.at("blender").get<std::string>(),
-                        json.at("build").get<std::string>(),
-                        json.at("ocio_config").get<std::string>(),
-                        json.at("cpu").get<std::string>()};
+    return ReadyMessage{
+        integer_of<int>(json.at("protocol")),      json.at("blender").get<std::string>(),
+        json.at("build").get<std::string>(),       json.at("ocio_config").get<std::string>(),
+        json.at("kernel").get<std::string>(),      json.at("embree").get<std::string>(),
+        json.at("reciprocals").get<std::string>(), json.at("libc").get<std::string>()};
   }
-  const FrameJob job = {json.at("frame").get<std::int64_t>(), json.at("attempt").get<int>()};
+  if (type == "alive") return AliveMessage{integer_of<std::int64_t>(json.at("memory_bytes"))};
+  const FrameJob job = {integer_of<std::int64_t>(json.at("frame")),
+                        integer_of<int>(json.at("attempt"))};
   if (type == "done") {
     return DoneMessage{job, json.at("build_s").get<double>(), json.at("render_s").get<double>()};
   }
@@ -48,16 +51,17 @@ std::string encode_render_message(const FrameJob& job, const RenderRequest& requ
   // The spec is JSON already; reading it again would cost more than sending it.
   const auto replace = Json::error_handler_t::replace;
   return fmt::format(
-      R"({{"type":"render","frame":{},"attempt":{},"output":{},"meshes":{},"textures":{},"spec":{}}})"
+      R"({{"type":"render","frame":{},"attempt":{},"frame_id":{},"output":{},"meshes":{},"textures":{},"spec":{}}})"
       "\n",
-      job.frame, job.attempt, Json(request.output.string()).dump(-1, ' ', false, replace),
+      job.frame, job.attempt, Json(request.frame_id).dump(),
+      Json(request.output.string()).dump(-1, ' ', false, replace),
       path_table(request.meshes).dump(-1, ' ', false, replace),
       path_table(request.textures).dump(-1, ' ', false, replace), request.spec);
 }
 
 Result<WorkerMessage> parse_worker_message(std::string_view line) {
   try {
-    return read(Json::parse(line));
+    return read_message(Json::parse(line));
   } catch (const Json::exception& error) {
     return not_a_message(line, error.what());
   }

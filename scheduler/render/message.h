@@ -12,11 +12,12 @@
 
 namespace seedframe {
 
-inline constexpr int kWorkerProtocol = 1;
+inline constexpr int kWorkerProtocol = 3;
 
 /// Everything a worker needs to render one frame.
 struct RenderRequest {
   std::string spec;                                       ///< the frame spec as one line of JSON
+  std::string frame_id;                                   ///< is to be noted in the file
   std::filesystem::path output;                           ///< EXR to write; its folder exists
   std::map<std::string, std::filesystem::path> meshes;    ///< SHA-256 -> mesh buffer
   std::map<std::string, std::filesystem::path> textures;  ///< SHA-256 -> image file
@@ -35,7 +36,15 @@ struct ReadyMessage {
   std::string blender;      ///< "3.4.1"
   std::string build;        ///< Blender's build hash
   std::string ocio_config;  ///< path of the colour configuration that Blender uses
-  std::string cpu;          ///< the CPU kernel that Cycles uses: "avx2", "avx", "sse41", …
+  std::string kernel;       ///< that Cycles uses: "avx2", "avx", "sse41", "sse3", "sse2"
+  std::string embree;       ///< kernels that Embree uses: "avx512", "avx2", …; empty: unknown
+  std::string reciprocals;  ///< hash of the CPU's approximate reciprocals; empty: unknown
+  std::string libc;         ///< "glibc 2.36"
+};
+
+/// Comes every few seconds, whatever else the worker does.
+struct AliveMessage {
+  std::int64_t memory_bytes = 0;  ///< resident
 };
 
 struct DoneMessage {
@@ -49,7 +58,7 @@ struct FailedMessage {
   std::string error;
 };
 
-using WorkerMessage = std::variant<ReadyMessage, DoneMessage, FailedMessage>;
+using WorkerMessage = std::variant<ReadyMessage, AliveMessage, DoneMessage, FailedMessage>;
 
 /// One line, with its line feed.
 std::string encode_render_message(const FrameJob& job, const RenderRequest& request);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "render/frame_timeout.h"
 #include "render/schedule.h"
 #include "render/worker_pool.h"
 #include "render/worker_process.h"
@@ -24,18 +25,26 @@ class WorkerPool::Loop {
  private:
   using Clock = std::chrono::steady_clock;
 
+  static constexpr std::chrono::milliseconds kPatience{500};  ///< for a worker to end by itself
+
   struct Worker {
-    enum class State { kStopped, kStarting, kIdle, kBusy };
+    enum class State { kStopped, kStarting, kIdle, kBusy, kEnding };
 
     int number = 0;
     State state = State::kStopped;
     std::unique_ptr<WorkerProcess> process;
-    int start = 0;               ///< which of all starts its process is
-    int frames = 0;              ///< rendered or tried by this process
-    bool suspect = false;        ///< is replaced when it is idle
-    FrameJob job;                ///< when busy
-    Clock::time_point since;     ///< when it was started or given its frame
-    Clock::time_point deadline;  ///< when starting or busy
+    int start = 0;                     ///< which of all starts its process is
+    int frames = 0;                    ///< rendered or tried by this process
+    bool suspect = false;              ///< is replaced when it is idle
+    std::int64_t memory_bytes = 0;     ///< as it said last
+    std::int64_t memory_kills = 0;     ///< of the kernel, when it was started
+    FrameJob job;                      ///< when busy
+    Clock::time_point since;           ///< when it was started or given its frame
+    Clock::time_point deadline;        ///< when starting or busy
+    Clock::time_point heartbeat;       ///< when busy: by then something must have come
+    std::optional<std::string> wrong;  ///< when ending: what it did; empty: it closed the channel
+    std::optional<FrameJob> charged;   ///< when ending: the frame that is to blame
+    bool was_starting = false;         ///< when ending
   };
 
   /// Asked of the client ahead of time, so that an idle worker need not wait for it.
@@ -51,7 +60,7 @@ class WorkerPool::Loop {
   void start(Worker& worker);
   void hand_out(Schedule& schedule);
   std::optional<PreparedJob> prepare(Schedule& schedule, bool fresh_worker);
-  void give(Worker& worker, const PreparedJob& prepared);
+  void give(Worker& worker, const PreparedJob& prepared, const Schedule& schedule);
   void retire_workers(Schedule& schedule);
 
   // What comes from them.
@@ -60,25 +69,32 @@ class WorkerPool::Loop {
   /// False when the worker must not go on.
   bool take_line(Worker& worker, const std::string& line, Schedule& schedule);
   bool take_ready(Worker& worker, const ReadyMessage& ready);
-  bool take_done(Worker& worker, const DoneMessage& done, Schedule& schedule);
-  bool take_failed(Worker& worker, const FailedMessage& failed, Schedule& schedule);
-  void check_deadline(Worker& worker, Schedule& schedule);
+  bool take_answer(Worker& worker, const FrameJob& job);
+  void take_done(Worker& worker, const DoneMessage& done, Schedule& schedule);
+  void check_deadline(Worker& worker);
 
-  /// Ends a worker that did wrong, and counts its frame as failed.
-  void give_up(Worker& worker, Schedule& schedule, const std::string& why);
-  void fail_attempt(Schedule& schedule, const FrameJob& job, RetryIn where, const std::string& why);
-  void stop(Worker& worker, std::chrono::milliseconds patience);
-  void stop_all(std::chrono::milliseconds patience);
+  // The end of workers.
+  /// Begins the end of one that did wrong: `wrong` says what, or is empty when it closed the
+  /// channel. Its frame is charged when it has ended.
+  void give_up(Worker& worker, std::string wrong);
+  void begin_end(Worker& worker, std::chrono::milliseconds patience);
+  void take_end(Worker& worker, Schedule& schedule);
+  void charge_end(const Worker& worker, const WorkerEnd& end, Schedule& schedule);
+  void fail_attempt(Schedule& schedule, const FrameJob& job, Failure failure, std::string message,
+                    std::string log);
+  void stop_all(Schedule& schedule);
 
   // From other threads and signal handlers.
   void take_verdicts(Schedule& schedule);
   void take_verdict(Schedule& schedule, const FrameJob& job, const Status& verdict);
   void take_drain(Schedule& schedule);
   void wake();
+  void take_wake();
 
   PoolOptions options_;
   RenderClient& client_;
   std::vector<Worker> workers_;
+  FrameTimeout timeout_;
   std::optional<PreparedJob> prepared_;
   std::map<FrameJob, int> rendered_by_;  ///< unjudged jobs and the start of their worker
   std::optional<Error> stopped_by_;

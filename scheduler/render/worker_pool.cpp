@@ -16,8 +16,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kMostFailedStarts = 3;
-constexpr auto kPatience = 500ms;  // for a worker to end by itself
+bool ends_the_run(const Error& error) {
+  return error.kind == ErrorKind::kEnvironment || error.kind == ErrorKind::kExhausted;
+}
 
 }  // namespace
 
@@ -36,6 +37,7 @@ void WorkerPool::drain() { loop_->drain(); }
 WorkerPool::Loop::Loop(PoolOptions options, RenderClient& client)
     : options_(std::move(options)),
       client_(client),
+      timeout_(options_.frame_timeout),
       wake_fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   workers_.resize(static_cast<std::size_t>(std::max(1, options_.workers)));
   for (std::size_t i = 0; i < workers_.size(); ++i) workers_[i].number = static_cast<int>(i);
@@ -44,8 +46,8 @@ WorkerPool::Loop::Loop(PoolOptions options, RenderClient& client)
 WorkerPool::Loop::~Loop() { close(wake_fd_); }
 
 Result<RunSummary> WorkerPool::Loop::run(const std::vector<PendingFrame>& frames) {
-  if (wake_fd_ < 0) return fail(ErrorKind::kEnvironment, "cannot make an eventfd");
-  Schedule schedule(frames, options_.max_attempts);
+  if (wake_fd_ < 0) return fail(ErrorKind::kExhausted, "cannot make an eventfd");
+  Schedule schedule(frames, options_.attempts);
   while (!stopped_by_) {
     take_verdicts(schedule);
     take_drain(schedule);
@@ -57,12 +59,14 @@ Result<RunSummary> WorkerPool::Loop::run(const std::vector<PendingFrame>& frames
     wait_for_events();
     for (Worker& worker : workers_) {
       receive_from(worker, schedule);
-      check_deadline(worker, schedule);
+      check_deadline(worker);
+      take_end(worker, schedule);
     }
   }
-  stop_all(stopped_by_ ? 0ms : kPatience);
+  stop_all(schedule);
   if (stopped_by_) return tl::unexpected(*stopped_by_);
-  return RunSummary{schedule.done(), schedule.failed(), schedule.waiting(), starts_};
+  return RunSummary{schedule.done(), schedule.failed(), schedule.quarantined(), schedule.waiting(),
+                    starts_};
 }
 
 void WorkerPool::Loop::stop_run(Error error) {
@@ -72,8 +76,7 @@ void WorkerPool::Loop::stop_run(Error error) {
 // ---- Work for workers ----
 
 void WorkerPool::Loop::start_workers(Schedule& schedule) {
-  if (schedule.draining()) return;
-  std::int64_t wanted = schedule.waiting() + (prepared_ ? 1 : 0);
+  std::int64_t wanted = schedule.workers_wanted() + (prepared_ ? 1 : 0);
   for (const Worker& worker : workers_) {
     if (worker.state == Worker::State::kStarting || worker.state == Worker::State::kIdle) --wanted;
   }
@@ -91,7 +94,11 @@ void WorkerPool::Loop::start(Worker& worker) {
   command.scripts = options_.scripts;
   command.log = options_.log_path(worker.number);
   command.threads = options_.threads;
+  command.persistent_data = options_.conditions.persistent_data;
   command.environment = options_.environment;
+  command.environment.merge(environment_of(options_.conditions, options_.preload));
+  command.wrapper = options_.wrapper;
+  command.limits = options_.limits;
   Result<std::unique_ptr<WorkerProcess>> process = WorkerProcess::start(command);
   if (!process) return stop_run(process.error());
   const int number = worker.number;
@@ -100,6 +107,7 @@ void WorkerPool::Loop::start(Worker& worker) {
   worker.state = Worker::State::kStarting;
   worker.process = std::move(*process);
   worker.start = ++starts_;
+  worker.memory_kills = options_.out_of_memory_kills();
   worker.since = Clock::now();
   worker.deadline = worker.since + options_.start_timeout;
 }
@@ -115,7 +123,7 @@ void WorkerPool::Loop::hand_out(Schedule& schedule) {
       } else {
         next = prepare(schedule, fresh);
       }
-      if (next) give(worker, *next);
+      if (next) give(worker, *next, schedule);
     }
     somebody_busy = somebody_busy || worker.state == Worker::State::kBusy;
   }
@@ -129,22 +137,24 @@ std::optional<WorkerPool::Loop::PreparedJob> WorkerPool::Loop::prepare(Schedule&
     if (!job) break;
     const Result<RenderRequest> request = client_.request(*job);
     if (request) return PreparedJob{*job, encode_render_message(*job, *request)};
-    if (request.error().kind == ErrorKind::kEnvironment) {
+    if (ends_the_run(request.error())) {
       schedule.withdraw(*job);
       stop_run(request.error());
     } else {
       schedule.fail_for_good(*job);
-      client_.attempt_failed(*job, request.error().message, true);
+      client_.attempt_failed(
+          *job, {Failure::kAnswered, Consequence::kFailed, request.error().message, {}});
     }
   }
   return std::nullopt;
 }
 
-void WorkerPool::Loop::give(Worker& worker, const PreparedJob& prepared) {
+void WorkerPool::Loop::give(Worker& worker, const PreparedJob& prepared, const Schedule& schedule) {
   worker.state = Worker::State::kBusy;
   worker.job = prepared.job;
   worker.since = Clock::now();
-  worker.deadline = worker.since + options_.frame_timeout;
+  worker.deadline = worker.since + timeout_.limit(schedule.crashes(worker.job.frame));
+  worker.heartbeat = worker.since + options_.heartbeat_timeout;
   ++worker.frames;
   worker.process->send(prepared.message);
   client_.started(worker.job, worker.number);
@@ -154,143 +164,10 @@ void WorkerPool::Loop::retire_workers(Schedule& schedule) {
   for (Worker& worker : workers_) {
     if (worker.state != Worker::State::kIdle) continue;
     const bool worn = options_.frames_per_worker > 0 && worker.frames >= options_.frames_per_worker;
+    const bool grown = options_.worker_memory_bytes > 0 && worker.frames > 0 &&
+                       worker.memory_bytes > options_.worker_memory_bytes;
     const bool in_the_way = !prepared_ && schedule.wants_fresh_worker() && worker.frames > 0;
-    if (worker.suspect || worn || in_the_way) stop(worker, kPatience);
-  }
-}
-
-// ---- What comes from workers ----
-
-void WorkerPool::Loop::wait_for_events() {
-  std::vector<pollfd> waiting = {{wake_fd_, POLLIN, 0}};
-  auto deadline = Clock::time_point::max();
-  for (const Worker& worker : workers_) {
-    if (worker.state == Worker::State::kStopped) continue;
-    const short events = worker.process->has_unsent() ? POLLIN | POLLOUT : POLLIN;
-    waiting.push_back({worker.process->channel(), events, 0});
-    if (worker.state != Worker::State::kIdle) deadline = std::min(deadline, worker.deadline);
-  }
-  int timeout_ms = -1;
-  if (deadline != Clock::time_point::max()) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-    timeout_ms = static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 60'000));
-  }
-  poll(waiting.data(), waiting.size(), timeout_ms);
-}
-
-void WorkerPool::Loop::receive_from(Worker& worker, Schedule& schedule) {
-  if (worker.state == Worker::State::kStopped) return;
-  worker.process->send_more();
-  std::vector<std::string> lines;
-  const bool open = worker.process->receive(lines);
-  for (const std::string& line : lines) {
-    if (!take_line(worker, line, schedule)) return;
-  }
-  if (!open) give_up(worker, schedule, "");
-}
-
-bool WorkerPool::Loop::take_line(Worker& worker, const std::string& line, Schedule& schedule) {
-  const Result<WorkerMessage> message = parse_worker_message(line);
-  if (!message) {
-    give_up(worker, schedule, message.error().message);
-    return false;
-  }
-  if (const auto* ready = std::get_if<ReadyMessage>(&*message)) {
-    if (worker.state == Worker::State::kStarting) return take_ready(worker, *ready);
-    give_up(worker, schedule, "it said \"ready\" twice");
-    return false;
-  }
-  const auto* done = std::get_if<DoneMessage>(&*message);
-  const auto* failed = std::get_if<FailedMessage>(&*message);
-  const FrameJob& job = done != nullptr ? done->job : failed->job;
-  if (worker.state != Worker::State::kBusy || job != worker.job) {
-    give_up(
-        worker, schedule,
-        fmt::format("it answered about frame {}, attempt {}, which is not what it was asked for",
-                    job.frame, job.attempt));
-    return false;
-  }
-  worker.process->bound_log();
-  worker.state = Worker::State::kIdle;
-  return done != nullptr ? take_done(worker, *done, schedule)
-                         : take_failed(worker, *failed, schedule);
-}
-
-bool WorkerPool::Loop::take_ready(Worker& worker, const ReadyMessage& ready) {
-  if (ready.protocol != kWorkerProtocol) {
-    stop_run({ErrorKind::kEnvironment,
-              fmt::format("the worker in {} speaks protocol {}, this program {}: the two are of "
-                          "different versions of Seedframe",
-                          options_.scripts.string(), ready.protocol, kWorkerProtocol)});
-    return false;
-  }
-  starts_failed_in_a_row_ = 0;
-  worker.state = Worker::State::kIdle;
-  client_.worker_ready(worker.number, ready);
-  return true;
-}
-
-bool WorkerPool::Loop::take_done(Worker& worker, const DoneMessage& done, Schedule& schedule) {
-  schedule.rendered(done.job);
-  rendered_by_[done.job] = worker.start;
-  const std::chrono::duration<double> total = Clock::now() - worker.since;
-  client_.rendered(done.job, {done.build_s, done.render_s, total.count()}, worker.number);
-  return true;
-}
-
-bool WorkerPool::Loop::take_failed(Worker&, const FailedMessage& failed, Schedule& schedule) {
-  fail_attempt(schedule, failed.job, RetryIn::kAnyWorker, failed.error);
-  return true;
-}
-
-void WorkerPool::Loop::check_deadline(Worker& worker, Schedule& schedule) {
-  const bool waiting =
-      worker.state == Worker::State::kStarting || worker.state == Worker::State::kBusy;
-  if (!waiting || Clock::now() < worker.deadline) return;
-  const auto allowed =
-      worker.state == Worker::State::kStarting ? options_.start_timeout : options_.frame_timeout;
-  give_up(
-      worker, schedule,
-      fmt::format("it gave no answer within {:g} s", static_cast<double>(allowed.count()) / 1e3));
-}
-
-void WorkerPool::Loop::give_up(Worker& worker, Schedule& schedule, const std::string& why) {
-  const Worker::State state = worker.state;
-  // A worker that closed its channel is about to end; how it ends is worth a moment.
-  const std::string end = worker.process->end(why.empty() ? 1000ms : 0ms);
-  const std::string tail = worker.process->log_tail();
-  std::string message =
-      fmt::format("worker {}: {}", worker.number, why.empty() ? "it " + end : why);
-  message += tail.empty() ? "; its log is empty" : "; its log ends with:\n" + tail;
-  stop(worker, 0ms);
-  if (state == Worker::State::kBusy) {
-    fail_attempt(schedule, worker.job, RetryIn::kFreshWorker, message);
-  }
-  if (state == Worker::State::kStarting && ++starts_failed_in_a_row_ >= kMostFailedStarts) {
-    stop_run({ErrorKind::kEnvironment,
-              fmt::format("{} workers in a row did not get ready. The last was {}",
-                          starts_failed_in_a_row_, message)});
-  }
-}
-
-void WorkerPool::Loop::fail_attempt(Schedule& schedule, const FrameJob& job, RetryIn where,
-                                    const std::string& why) {
-  const bool final = schedule.is_last_attempt(job);
-  if (schedule.attempt_failed(job, where)) client_.attempt_failed(job, why, final);
-}
-
-void WorkerPool::Loop::stop(Worker& worker, std::chrono::milliseconds patience) {
-  if (worker.process) worker.process->end(patience);
-  worker.process.reset();
-  worker.state = Worker::State::kStopped;
-}
-
-void WorkerPool::Loop::stop_all(std::chrono::milliseconds patience) {
-  for (Worker& worker : workers_) {
-    if (worker.process) worker.process->close_channel();  // so that they end at the same time
-  }
-  for (Worker& worker : workers_) {
-    stop(worker, worker.state == Worker::State::kIdle ? patience : 0ms);
+    if (worker.suspect || worn || grown || in_the_way) begin_end(worker, kPatience);
   }
 }
 
@@ -317,9 +194,13 @@ void WorkerPool::Loop::wake() {
   errno = saved_errno;
 }
 
-void WorkerPool::Loop::take_verdicts(Schedule& schedule) {
+void WorkerPool::Loop::take_wake() {
   std::uint64_t count = 0;
   [[maybe_unused]] const ssize_t bytes = read(wake_fd_, &count, sizeof count);
+}
+
+void WorkerPool::Loop::take_verdicts(Schedule& schedule) {
+  take_wake();
   std::vector<std::pair<FrameJob, Status>> verdicts;
   {
     const std::lock_guard lock(verdicts_mutex_);
@@ -338,11 +219,11 @@ void WorkerPool::Loop::take_verdict(Schedule& schedule, const FrameJob& job,
     schedule.committed(job);
     return;
   }
-  if (verdict.error().kind == ErrorKind::kEnvironment) return stop_run(verdict.error());
+  if (ends_the_run(verdict.error())) return stop_run(verdict.error());
   for (Worker& worker : workers_) {
     if (worker.state != Worker::State::kStopped && worker.start == start) worker.suspect = true;
   }
-  fail_attempt(schedule, job, RetryIn::kFreshWorker, verdict.error().message);
+  fail_attempt(schedule, job, Failure::kBadFile, verdict.error().message, {});
 }
 
 void WorkerPool::Loop::take_drain(Schedule& schedule) {
@@ -352,10 +233,14 @@ void WorkerPool::Loop::take_drain(Schedule& schedule) {
   if (prepared_) schedule.withdraw(prepared_->job);
   prepared_.reset();
   for (Worker& worker : workers_) {
-    if (worker.state == Worker::State::kStarting) stop(worker, 0ms);
-    if (asked < 2 || worker.state != Worker::State::kBusy) continue;
-    stop(worker, 0ms);
-    schedule.withdraw(worker.job);
+    if (worker.state == Worker::State::kStarting) begin_end(worker, 0ms);
+    if (asked < 2 || worker.process == nullptr) continue;
+    const bool busy = worker.state == Worker::State::kBusy;
+    if (busy || worker.charged) schedule.withdraw(busy ? worker.job : *worker.charged);
+    worker.wrong.reset();
+    worker.charged.reset();
+    begin_end(worker, 0ms);
+    worker.process->kill();
   }
 }
 

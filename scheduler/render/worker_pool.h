@@ -11,8 +11,12 @@
 #include <vector>
 
 #include "base/error.h"
+#include "render/child_process.h"
 #include "render/frame_job.h"
+#include "render/memory.h"
 #include "render/message.h"
+#include "render/schedule.h"
+#include "render/worker_conditions.h"
 
 namespace seedframe {
 
@@ -24,16 +28,27 @@ struct PoolOptions {
 
   int workers = 1;
   int threads = 1;  ///< of each worker
-  int max_attempts = 3;
-  std::chrono::milliseconds frame_timeout = std::chrono::seconds(600);
+  /// A worker that cannot keep them ends the run.
+  WorkerConditions conditions;
+  std::filesystem::path preload;  ///< see environment_of; empty: nothing is
+  AttemptLimits attempts;
+  std::chrono::milliseconds frame_timeout = std::chrono::seconds(600);  ///< see FrameTimeout
   std::chrono::milliseconds start_timeout = std::chrono::seconds(120);
+  /// A worker that says nothing for so long hangs, whatever it may still take over its frame.
+  std::chrono::milliseconds heartbeat_timeout = std::chrono::seconds(120);
   /// A worker is replaced after so many frames; 0: never.
   int frames_per_worker = 0;
+  /// A worker that has grown above this (resident, bytes) is replaced after its frame; 0: never.
+  std::int64_t worker_memory_bytes = 0;
+  ResourceLimits limits;  ///< that no worker gets beyond
   /// No new frame starts while so many wait for their verdict, which bounds the disk they take.
   int max_unjudged = 64;
+  std::vector<std::string> wrapper;  ///< see WorkerCommand
+  /// Processes that the kernel has killed for lack of memory since it started.
+  std::function<std::int64_t()> out_of_memory_kills = system_out_of_memory_kills;
 
-  /// Set in the workers' environment on top of ours, for example OCIO, or CYCLES_CPU_NO_AVX2 to pin
-  /// the kernel. Of ours, PATH, PYTHON*, BLENDER_USER_* and OCIO are not handed on.
+  /// Set in the workers' environment on top of ours and of what the conditions ask for. Of ours,
+  /// PATH, PYTHON*, BLENDER_USER_* and OCIO are not handed on.
   std::map<std::string, std::string> environment;
 };
 
@@ -45,26 +60,30 @@ class RenderClient {
   virtual ~RenderClient() = default;
 
   /// May be called some time before started, and again for the same job if that never came. A
-  /// kEnvironment error ends the run; any other fails the frame for good.
+  /// kEnvironment or kExhausted error ends the run; any other fails the frame for good.
   virtual Result<RenderRequest> request(const FrameJob& job) = 0;
   virtual void started(const FrameJob& job, int worker) = 0;
   /// The worker says that the file is written. Hand it to post-processing, which must answer with
   /// post_verdict.
   virtual void rendered(const FrameJob& job, const RenderTimings& timings, int worker) = 0;
-  /// `final`: this frame gets no further attempt. Also called for bad verdicts.
-  virtual void attempt_failed(const FrameJob& job, const std::string& message, bool final) = 0;
+  /// Also called for bad verdicts.
+  virtual void attempt_failed(const FrameJob& job, const AttemptFailure& failure) = 0;
+  /// Asked before a frame is charged with a failure. An error says that the system is to blame (a
+  /// full disk): it ends the run, and the attempt does not count.
+  virtual Status check_system() = 0;
   virtual void worker_ready(int worker, const ReadyMessage& ready) = 0;
 };
 
 struct RunSummary {
-  std::int64_t committed = 0;  ///< frames with a good verdict
-  std::int64_t failed = 0;     ///< frames that failed for good
-  std::int64_t left = 0;       ///< frames not done because the run was drained
+  std::int64_t committed = 0;    ///< frames with a good verdict
+  std::int64_t failed = 0;       ///< frames that failed for good
+  std::int64_t quarantined = 0;  ///< frames that cost too many workers
+  std::int64_t left = 0;         ///< frames not done because the run was drained
   int worker_starts = 0;
 };
 
 /// Frames go to workers one at a time; a worker that dies, hangs, answers nonsense or writes a bad
-/// file is killed and replaced, and its frame is tried again in a fresh one.
+/// file is ended and replaced, and its frame is tried again in a fresh one (schedule.h).
 class WorkerPool {
  public:
   WorkerPool(PoolOptions options, RenderClient& client);
@@ -74,13 +93,14 @@ class WorkerPool {
 
   /// Returns when every frame is committed or failed for good, or the run is drained; no worker is
   /// left then. Failed frames are no error of the run. kEnvironment errors: workers that never get
-  /// ready (with the end of their log), and those of the client. To be called once. It ignores
+  /// ready (with the end of their log), and those of the client; kExhausted: the kernel killed a
+  /// worker for lack of memory, and those of the client. To be called once. It ignores
   /// nothing and installs no signal handlers.
   Result<RunSummary> run(const std::vector<PendingFrame>& frames);
 
   /// The outcome of post-processing; from any thread. An error counts as a failed attempt and the
-  /// worker that rendered it is replaced, except kEnvironment (a full disk), which ends the run
-  /// instead.
+  /// worker that rendered it is replaced, except kEnvironment and kExhausted (a full disk), which
+  /// end the run instead.
   void post_verdict(const FrameJob& job, Status verdict);
 
   /// No new frames: run returns when those under way have been rendered and judged. The second call

@@ -5,29 +5,28 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <signal.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-#include "render/child_process.h"
+#include "base/files.h"
 
 namespace seedframe {
 namespace {
 
 constexpr std::size_t kLongestLine = 1 << 20;
-constexpr off_t kLargestLog = 4 << 20;
-constexpr off_t kTailBytes = 2000;
+constexpr int kLogPipeBytes = 1 << 20;
+constexpr auto kTimeForTerminate = std::chrono::milliseconds(500);
+constexpr auto kTimeForKill = std::chrono::seconds(10);
 
 void set_non_blocking(int fd) { fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) | O_NONBLOCK); }
-
-off_t size_of(int fd) {
-  struct stat info {};
-  return fstat(fd, &info) == 0 ? info.st_size : 0;
-}
 
 /// Blender computes vertex normals (before 4.0) with as many threads as there were CPUs for it when
 /// it started, and adds them up in whatever order the threads come: the last bits differ from run
@@ -40,72 +39,91 @@ int next_start_cpu() {
   return cpus.empty() ? -1 : cpus[starts++ % cpus.size()];
 }
 
-Result<int> open_log(const std::filesystem::path& path) {
-  const int log = open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-  if (log < 0) {
-    return fail(ErrorKind::kEnvironment, "cannot open the worker log {}: {}", path.string(),
-                std::strerror(errno));
+/// Our ends and the worker's of channel and log; what is still open when this dies is closed.
+struct Pipes {
+  std::array<int, 2> channel = {-1, -1};  ///< ours, the worker's
+  std::array<int, 2> log = {-1, -1};      ///< ours (to read), the worker's
+
+  ~Pipes() {
+    for (const int fd : {channel[0], channel[1], log[0], log[1]}) {
+      if (fd >= 0) close(fd);
+    }
   }
-  return log;
-}
+  Status make() {
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, channel.data()) != 0 ||
+        pipe2(log.data(), O_CLOEXEC) != 0) {
+      return fail(kind_of_errno(errno), "cannot make a channel to a worker: {}",
+                  std::strerror(errno));
+    }
+    set_non_blocking(channel[0]);
+    set_non_blocking(log[0]);
+    fcntl(log[0], F_SETPIPE_SZ, kLogPipeBytes);  // so that a chatty worker seldom waits for us
+    return {};
+  }
+};
 
 }  // namespace
 
 std::vector<std::string> worker_arguments(const WorkerCommand& command) {
   const std::string channel = std::to_string(kChildChannel);
-  return {command.blender.string(),
-          "--background",
-          "--factory-startup",
-          "--disable-autoexec",
-          "-noaudio",
-          "--threads",
-          std::to_string(command.threads),
-          "--python-exit-code",
-          "3",
-          "--python",
-          (command.scripts / "render_worker.py").string(),
-          "--",
-          "--read-fd",
-          channel,
-          "--write-fd",
-          channel,
-          "--cpus",
-          fmt::format("{}", fmt::join(allowed_cpus(), ","))};
+  std::vector<std::string> arguments = command.wrapper;
+  const std::vector<std::string> own = {command.blender.string(),
+                                        "--background",
+                                        "--factory-startup",
+                                        "--disable-autoexec",
+                                        "-noaudio",
+                                        "--threads",
+                                        std::to_string(command.threads),
+                                        "--python-exit-code",
+                                        "3",
+                                        "--python",
+                                        (command.scripts / "render_worker.py").string(),
+                                        "--",
+                                        "--read-fd",
+                                        channel,
+                                        "--write-fd",
+                                        channel,
+                                        "--cpus",
+                                        fmt::format("{}", fmt::join(allowed_cpus(), ","))};
+  arguments.insert(arguments.end(), own.begin(), own.end());
+  if (command.persistent_data) arguments.emplace_back("--persistent-data");
+  return arguments;
 }
 
 Result<std::unique_ptr<WorkerProcess>> WorkerProcess::start(const WorkerCommand& command) {
-  const Result<int> log = open_log(command.log);
+  Result<WorkerLog> log = WorkerLog::open(command.log);
   if (!log) return forward_error(log);
-  std::array<int, 2> ends{};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    close(*log);
-    return fail(ErrorKind::kEnvironment, "cannot make a channel to a worker: {}",
-                std::strerror(errno));
-  }
-  set_non_blocking(ends[0]);
+  Pipes pipes;
+  if (Status made = pipes.make(); !made) return forward_error(made);
   ChildCommand child;
   child.arguments = worker_arguments(command);
   child.environment = worker_environment({command.environment.begin(), command.environment.end()});
-  child.output = *log;
-  child.channel = ends[1];
+  child.output = pipes.log[1];
+  child.channel = pipes.channel[1];
   child.cpu = next_start_cpu();
-  const off_t log_begin = size_of(*log);
+  child.limits = command.limits;
   const Result<pid_t> pid = start_child(child);
-  close(ends[1]);
-  if (!pid) {
-    close(ends[0]);
-    close(*log);
-    return forward_error(pid);
+  if (!pid) return forward_error(pid);
+  const int pid_fd = static_cast<int>(syscall(SYS_pidfd_open, *pid, 0));  // close-on-exec by itself
+  const int error = errno;
+  std::unique_ptr<WorkerProcess> worker(
+      new WorkerProcess(*pid, pid_fd, std::exchange(pipes.channel[0], -1),
+                        std::exchange(pipes.log[0], -1), std::move(*log)));
+  if (pid_fd < 0) {
+    return fail(kind_of_errno(error), "cannot watch a worker: {}", std::strerror(error));
   }
-  return std::unique_ptr<WorkerProcess>(new WorkerProcess(*pid, ends[0], *log, log_begin));
+  return worker;
 }
 
-WorkerProcess::WorkerProcess(pid_t pid, int channel, int log, off_t log_begin)
-    : pid_(pid), channel_(channel), log_(log), log_begin_(log_begin) {}
+WorkerProcess::WorkerProcess(pid_t pid, int pid_fd, int channel, int log_pipe, WorkerLog log)
+    : pid_(pid), pid_fd_(pid_fd), channel_(channel), log_pipe_(log_pipe), log_(std::move(log)) {}
 
 WorkerProcess::~WorkerProcess() {
-  end(std::chrono::milliseconds(0));
-  close(log_);
+  close_channel();
+  if (!end_) kill_child(pid_);
+  read_log();
+  if (log_pipe_ >= 0) close(log_pipe_);
+  if (pid_fd_ >= 0) close(pid_fd_);
 }
 
 void WorkerProcess::send(std::string_view line) {
@@ -154,29 +172,55 @@ void WorkerProcess::close_channel() {
   channel_ = -1;
 }
 
-std::string WorkerProcess::end(std::chrono::milliseconds patience) {
+void WorkerProcess::read_log() {
+  constexpr int kReads = 16;  // a megabyte
+  std::array<char, 1 << 16> buffer;
+  for (int i = 0; i < kReads && log_pipe_ >= 0; ++i) {
+    const ssize_t bytes = read(log_pipe_, buffer.data(), buffer.size());
+    if (bytes < 0 && errno == EINTR) continue;
+    if (bytes < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
+    if (bytes <= 0) {
+      close(log_pipe_);
+      log_pipe_ = -1;
+      return;
+    }
+    log_.append({buffer.data(), static_cast<std::size_t>(bytes)});
+  }
+}
+
+void WorkerProcess::begin_end(std::chrono::milliseconds patience) {
   close_channel();
-  if (ended_) return "has ended";
-  ended_ = true;
-  std::optional<int> status = wait_for_child(pid_, patience);
-  if (!status) status = kill_child(pid_);
-  return describe_wait_status(status);
+  if (sent_ == Signal::kNone) next_step_ = std::min(next_step_, Clock::now() + patience);
 }
 
-std::string WorkerProcess::log_tail() const {
-  const off_t size = size_of(log_);
-  const off_t own_begin = log_begin_ <= size ? log_begin_ : 0;  // the log was started anew
-  const off_t begin = std::max(own_begin, size - kTailBytes);
-  std::string text(static_cast<std::size_t>(size - begin), '\0');
-  const ssize_t bytes = pread(log_, text.data(), text.size(), begin);
-  text.resize(bytes < 0 ? 0 : static_cast<std::size_t>(bytes));
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
+void WorkerProcess::kill() {
+  close_channel();
+  if (sent_ != Signal::kKill) send_signal(Signal::kKill, kTimeForKill);
 }
 
-void WorkerProcess::bound_log() {
-  if (size_of(log_) <= kLargestLog) return;
-  if (ftruncate(log_, 0) == 0) log_begin_ = 0;
+void WorkerProcess::send_signal(Signal signal, std::chrono::milliseconds time_for_it) {
+  ::kill(-pid_, signal == Signal::kKill ? SIGKILL : SIGTERM);
+  sent_ = signal;
+  next_step_ = Clock::now() + time_for_it;
+}
+
+std::optional<WorkerEnd> WorkerProcess::take_end_steps() {
+  if (end_) return end_;
+  const std::optional<int> status = wait_for_child(pid_, std::chrono::milliseconds(0));
+  const bool due = Clock::now() >= next_step_;
+  if (status) {
+    const bool killed = WIFSIGNALED(*status) && WTERMSIG(*status) == SIGKILL;
+    end_ = WorkerEnd{describe_wait_status(status), killed && sent_ != Signal::kKill};
+    ::kill(-pid_, SIGKILL);  // whatever it has started
+    read_log();
+  } else if (due && sent_ == Signal::kKill) {
+    end_ = WorkerEnd{describe_wait_status(status), false};
+  } else if (due && sent_ == Signal::kTerminate) {
+    send_signal(Signal::kKill, kTimeForKill);
+  } else if (due) {
+    send_signal(Signal::kTerminate, kTimeForTerminate);
+  }
+  return end_;
 }
 
 }  // namespace seedframe

@@ -1,4 +1,4 @@
-// One Blender process and the channel to it. Never blocks; knows nothing of frames.
+// One Blender process, the channel to it and its log. Never blocks; knows nothing of frames.
 #pragma once
 
 #include <chrono>
@@ -12,6 +12,8 @@
 #include <sys/types.h>
 
 #include "base/error.h"
+#include "render/child_process.h"
+#include "render/worker_log.h"
 
 namespace seedframe {
 
@@ -20,23 +22,37 @@ struct WorkerCommand {
   std::filesystem::path scripts;
   std::filesystem::path log;  ///< is appended to
   int threads = 1;
+  bool persistent_data = false;                    ///< see WorkerConditions
   std::map<std::string, std::string> environment;  ///< on top of worker_environment
+  std::vector<std::string> wrapper;                ///< a program that starts it, see sandbox.h
+  ResourceLimits limits;
 };
 
 /// The command line, for logs and for `seedframe explain`.
 std::vector<std::string> worker_arguments(const WorkerCommand& command);
 
+/// How a worker ended.
+struct WorkerEnd {
+  std::string how;                ///< "exited with status 3", for a message
+  bool killed_by_others = false;  ///< SIGKILL, and not ours
+};
+
 class WorkerProcess {
  public:
+  using Clock = std::chrono::steady_clock;
+
   /// Returns at once; that the program could be executed shows only by its "ready". The worker dies
   /// with the calling thread.
   static Result<std::unique_ptr<WorkerProcess>> start(const WorkerCommand& command);
+  /// Kills it if it has not ended.
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  /// To poll for POLLIN, and for POLLOUT while has_unsent().
-  int channel() const { return channel_; }
+  // To poll for POLLIN; -1 when closed.
+  int channel() const { return channel_; }  ///< also for POLLOUT, while has_unsent()
+  int log_pipe() const { return log_pipe_; }
+  int end_event() const { return pid_fd_; }  ///< readable once the process has ended
 
   void send(std::string_view line);
   bool has_unsent() const { return !unsent_.empty(); }
@@ -46,24 +62,37 @@ class WorkerProcess {
   /// has closed the channel (it is dead or dying), or sends a line without end.
   bool receive(std::vector<std::string>& lines);
 
-  /// Asks the worker to end, by closing the channel.
-  void close_channel();
-  /// Gives it so long to end by itself and kills it then. How it ended, for a message.
-  std::string end(std::chrono::milliseconds patience);
+  /// Moves what it printed into its log; of a worker that prints without end, a part.
+  void read_log();
+  /// The last lines that this process printed.
+  std::string log_tail(std::size_t most) const { return log_.tail(most); }
 
-  /// The last lines that this process wrote to its log.
-  std::string log_tail() const;
-  /// Starts the log anew when it has grown beyond a few megabytes.
-  void bound_log();
+  /// Asks it to end: closes the channel, sends SIGTERM after `patience` and SIGKILL half a second
+  /// later, each by take_end_steps.
+  void begin_end(std::chrono::milliseconds patience);
+  /// Without any patience.
+  void kill();
+  /// When take_end_steps has something to do, should the process not end before.
+  Clock::time_point next_end_step() const { return next_step_; }
+  /// Goes on with what begin_end or kill began, as far as it is time. How the process ended, once
+  /// it has; also when not even SIGKILL ends it (it is stuck in the kernel, and left behind).
+  std::optional<WorkerEnd> take_end_steps();
 
  private:
-  WorkerProcess(pid_t pid, int channel, int log, off_t log_begin);
+  enum class Signal { kNone, kTerminate, kKill };
+
+  WorkerProcess(pid_t pid, int pid_fd, int channel, int log_pipe, WorkerLog log);
+  void close_channel();
+  void send_signal(Signal signal, std::chrono::milliseconds time_for_it);
 
   pid_t pid_;
-  bool ended_ = false;
+  int pid_fd_;
   int channel_;
-  int log_;
-  off_t log_begin_;  ///< where this process' output begins
+  int log_pipe_;
+  WorkerLog log_;
+  std::optional<WorkerEnd> end_;
+  Signal sent_ = Signal::kNone;
+  Clock::time_point next_step_ = Clock::time_point::max();
   std::string received_;
   std::string unsent_;
 };

@@ -383,8 +383,14 @@ Rgb ColorDraw::evaluate(EvaluationContext& context) const {
 
 std::vector<NameDraw::Piece> NameDraw::split(const std::string& text, const CompileScope& scope,
                                              const Place& place, Diagnostics& errors) {
+  constexpr std::size_t kLongest = 2000;  // as a formula
   std::vector<Piece> pieces;
   std::size_t start = 0;
+  if (text.size() > kLongest) {
+    errors.add(place,
+               fmt::format("a name may have {} characters, found {}", kLongest, text.size()));
+    return pieces;
+  }
   while (start < text.size()) {
     const std::size_t open = text.find("${", start);
     if (open == std::string::npos) break;

@@ -8,7 +8,6 @@
 namespace seedframe {
 namespace {
 
-constexpr int kVersion = 4;
 constexpr std::array<const char*, 4> kLightKinds = {"point", "sun", "spot", "area"};
 
 /// Appends canonical JSON; keys must come in byte order.
@@ -244,8 +243,8 @@ MaterialSpec material_from_json(const Json& json) {
 InstanceSpec instance_from_json(const Json& json) {
   InstanceSpec instance;
   json.at("name").get_to(instance.name);
-  json.at("id").get_to(instance.id);
-  json.at("category").get_to(instance.category);
+  instance.id = integer_of<int>(json.at("id"));
+  instance.category = integer_of<int>(json.at("category"));
   json.at("mesh").get_to(instance.mesh);
   instance.asset = json.value("asset", std::string());
   for (const Json& item : json.value("keypoints", Json::array())) {
@@ -253,7 +252,9 @@ InstanceSpec instance_from_json(const Json& json) {
     instance.keypoints.push_back(
         {item.at("name").get<std::string>(), {at[0], at[1], at[2]}, item.at("inside").get<bool>()});
   }
-  json.at("materials").get_to(instance.materials);
+  for (const Json& index : json.at("materials").get<std::vector<Json>>()) {
+    instance.materials.push_back(integer_of<int>(index));
+  }
   instance.camera_from_object = matrix_from_json(json.at("camera_from_object"));
   for (const Json& kind : json.at("hidden_from")) {
     const auto name = kind.get<std::string>();
@@ -269,11 +270,11 @@ InstanceSpec instance_from_json(const Json& json) {
 FrameSpec read(const Json& json) {
   FrameSpec spec;
   const Json& render = json.at("render");
-  render.at("width").get_to(spec.render.width);
-  render.at("height").get_to(spec.render.height);
-  render.at("samples").get_to(spec.render.samples);
-  render.at("seed").get_to(spec.render.seed);
-  render.at("max_bounces").get_to(spec.render.max_bounces);
+  spec.render.width = integer_of<int>(render.at("width"));
+  spec.render.height = integer_of<int>(render.at("height"));
+  spec.render.samples = integer_of<int>(render.at("samples"));
+  spec.render.seed = integer_of<std::uint32_t>(render.at("seed"));
+  spec.render.max_bounces = integer_of<int>(render.at("max_bounces"));
   render.at("filter_width_px").get_to(spec.render.filter_width_px);
   render.at("clamp_indirect").get_to(spec.render.clamp_indirect);
   render.at("depth").get_to(spec.render.depth);
@@ -335,7 +336,7 @@ std::string canonical_text(const FrameSpec& spec) {
   out.list("lights", spec.lights, write_light);
   out.list("materials", spec.materials, write_material);
   object("render", write_render, spec.render);
-  out.field("version", static_cast<double>(kVersion));
+  out.field("version", static_cast<double>(kFrameSpecVersion));
   object("world", write_world, spec.world);
   out.close('}');
   return text;
@@ -346,10 +347,10 @@ Json to_json(const FrameSpec& spec) { return Json::parse(canonical_text(spec)); 
 Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what) {
   const Result<int> version = json_field<int>(json, "version", what);
   if (!version) return forward_error(version);
-  if (*version != kVersion) {
+  if (*version != kFrameSpecVersion) {
     return fail(ErrorKind::kCorrupt,
                 "{} is a frame spec of version {}; this program reads version {}", what, *version,
-                kVersion);
+                kFrameSpecVersion);
   }
   try {
     return read(json);

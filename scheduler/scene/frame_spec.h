@@ -16,6 +16,8 @@
 
 namespace seedframe {
 
+inline constexpr int kFrameSpecVersion = 4;
+
 /// Linear RGB, Rec.709 primaries.
 using Rgb = std::array<double, 3>;
 /// Row-major when written; maps points of an object to the camera's frame (x right, y up, z towards

@@ -51,7 +51,9 @@ std::string take_values(const Json& value, const GraphVariable& variable) {
 }  // namespace
 
 Result<Graphs> Graphs::open(const std::filesystem::path& file) {
-  Result<std::string> text = read_file(file);
+  constexpr std::size_t kMostBytes = 1u << 30;
+  constexpr std::size_t kMostLines = 10'000'000;
+  Result<std::string> text = read_file(file, kMostBytes);
   if (!text) return fail(ErrorKind::kInput, "{}", text.error().message);
   Graphs graphs;
   graphs.file_ = file.string();
@@ -62,6 +64,9 @@ Result<Graphs> Graphs::open(const std::filesystem::path& file) {
     ++number;
     const std::string_view line(graphs.text_->data() + begin, end - begin);
     if (line.find_first_not_of(" \t\r") != std::string_view::npos) {
+      if (graphs.lines_.size() == kMostLines) {
+        return fail(ErrorKind::kInput, "{} has more than {} lines", graphs.file_, kMostLines);
+      }
       graphs.lines_.push_back({begin, end - begin, number});
     }
     begin = end + 1;

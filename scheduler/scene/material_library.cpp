@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/files.h"
+#include "config/config_text.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -63,8 +64,11 @@ std::vector<std::string> keys_of(const std::map<std::string, T>& map) {
 }  // namespace
 
 Result<MaterialLibrary> MaterialLibrary::open(const std::vector<fs::path>& folders,
-                                              const std::vector<MaterialConfig>& own) {
+                                              const std::vector<MaterialConfig>& own,
+                                              AllowedFolders allowed) {
   MaterialLibrary library;
+  library.allowed_ = std::move(allowed);
+  for (const fs::path& folder : folders) library.allowed_.add(folder);
   for (const MaterialConfig& material : own) library.materials_.emplace(material.name, material);
   for (const fs::path& folder : folders) {
     if (Status added = library.add_folder(folder); !added) return forward_error(added);
@@ -86,9 +90,10 @@ Status MaterialLibrary::add_folder(const fs::path& folder) {
   }
   const fs::path file = folder / "library.yaml";
   if (fs::is_regular_file(file, error)) {
-    const Result<std::string> text = read_file(file);
+    if (Status inside = allowed_.check(file, file.string()); !inside) return inside;
+    const Result<std::string> text = read_file(file, kLargestConfig);
     if (!text) return forward_error(text);
-    const auto materials = read_material_library(*text, file);
+    const auto materials = read_material_library(*text, file, allowed_);
     if (!materials) return forward_error(materials);
     for (const MaterialConfig& material : *materials) materials_.emplace(material.name, material);
   }

@@ -23,9 +23,12 @@ class MaterialLibrary {
  public:
   /// Reads <folder>/library.yaml where it exists, and takes each folder <folder>/<name>/ or
   /// <folder>/textures/<name>/ that has a colour file for a texture set. What `own` names comes
-  /// before the library's; an earlier folder comes before a later one.
+  /// before the library's; an earlier folder comes before a later one. Files lie in one of the
+  /// folders or in an allowed one, also after symbolic links are followed: for a library.yaml that
+  /// is checked here, for images by whoever opens them.
   static Result<MaterialLibrary> open(const std::vector<std::filesystem::path>& folders,
-                                      const std::vector<MaterialConfig>& own);
+                                      const std::vector<MaterialConfig>& own,
+                                      AllowedFolders allowed = {});
 
   /// Each by its name; a texture set is a material too, plain but for its textures.
   const std::map<std::string, MaterialConfig>& materials() const { return materials_; }
@@ -35,11 +38,13 @@ class MaterialLibrary {
   /// Environment maps, <folder>/hdri/<name>.exr or .hdr: name to file.
   const std::map<std::string, std::filesystem::path>& hdris() const { return hdris_; }
   std::vector<std::string> hdri_names() const;
+  const AllowedFolders& allowed() const { return allowed_; }
 
  private:
   Status add_folder(const std::filesystem::path& folder);
   void add_texture_set(const std::filesystem::path& folder);
 
+  AllowedFolders allowed_;
   std::map<std::string, MaterialConfig> materials_;
   std::map<std::string, TextureSet> texture_sets_;
   std::map<std::string, std::filesystem::path> hdris_;

@@ -52,7 +52,10 @@ int MaterialPicker::add(const CompiledMaterials& materials, FrameSpec& spec,
   material.clearcoat = within(source.clearcoat, 0, 1, "clearcoat", context);
   material.texture_repeat = positive(source.texture_repeat, "texture_repeat", context);
   if (source.textures) {
-    add_textures(source.textures->evaluate(context), source.textures->place(), material, context);
+    // The material of a texture set stands in no file: then it is the user of it who is named.
+    const Place& own = source.textures->place();
+    add_textures(source.textures->evaluate(context), own.file.empty() ? materials.place : own,
+                 material, context);
   }
   const auto same = std::find(spec.materials.begin(), spec.materials.end(), material);
   if (same != spec.materials.end()) return static_cast<int>(same - spec.materials.begin());
@@ -86,7 +89,8 @@ std::string MaterialPicker::hash_of(const std::filesystem::path& file, const Pla
                                     EvaluationContext& context) {
   const auto known = hashes_.find(file);
   if (known != hashes_.end()) return known->second;
-  const Result<std::string> computed = sha256_of_file(file);
+  const Status inside = library_.allowed().check(file, file.string());
+  const Result<std::string> computed = inside ? sha256_of_file(file) : forward_error(inside);
   if (!computed) {
     context.report(place, computed.error().message);
     return "";

@@ -38,8 +38,8 @@ std::vector<std::string> references(const VariableConfig& variable) {
     for (std::size_t open = option.text.find("${"); open != std::string::npos;
          open = option.text.find("${", open + 2)) {
       const std::size_t close = option.text.find('}', open);
-      if (close != std::string::npos)
-        names.push_back(option.text.substr(open + 2, close - open - 2));
+      if (close == std::string::npos) break;
+      names.push_back(option.text.substr(open + 2, close - open - 2));
     }
   }
   return names;
@@ -57,28 +57,43 @@ class Order {
 
  private:
   enum class State { kNew, kOpen, kDone };
+  struct Step {
+    std::size_t index = 0;
+    std::vector<std::string> references;
+    std::size_t next = 0;  ///< of its references
+  };
 
-  void visit(std::size_t index) {
+  /// No recursion: a chain of references may be as long as the list of variables.
+  void visit(std::size_t first) {
+    enter(first);
+    while (!trail_.empty()) {
+      Step& step = trail_.back();
+      if (step.next < step.references.size()) {
+        const auto found = indices_.find(step.references[step.next++]);
+        if (found != indices_.end()) enter(found->second);
+        continue;
+      }
+      states_[step.index] = State::kDone;
+      sorted_.push_back(step.index);
+      trail_.pop_back();
+    }
+  }
+
+  void enter(std::size_t index) {
     if (states_[index] == State::kDone) return;
     if (states_[index] == State::kOpen) {
       report_cycle(index);
       return;
     }
     states_[index] = State::kOpen;
-    trail_.push_back(index);
-    for (const std::string& name : references(variables_[index])) {
-      const auto found = indices_.find(name);
-      if (found != indices_.end()) visit(found->second);
-    }
-    trail_.pop_back();
-    states_[index] = State::kDone;
-    sorted_.push_back(index);
+    trail_.push_back({index, references(variables_[index])});
   }
 
   void report_cycle(std::size_t index) {
-    const auto start = std::find(trail_.begin(), trail_.end(), index);
+    auto step = std::find_if(trail_.begin(), trail_.end(),
+                             [&](const Step& each) { return each.index == index; });
     std::string cycle;
-    for (auto i = start; i != trail_.end(); ++i) cycle += variables_[*i].name + " → ";
+    for (; step != trail_.end(); ++step) cycle += variables_[step->index].name + " → ";
     errors_.add(variables_[index].place, "these variables refer to each other in a circle: " +
                                              cycle + variables_[index].name);
   }
@@ -87,7 +102,7 @@ class Order {
   Diagnostics& errors_;
   std::vector<State> states_;
   std::map<std::string, std::size_t> indices_;
-  std::vector<std::size_t> trail_;
+  std::vector<Step> trail_;
   std::vector<std::size_t> sorted_;
 };
 

@@ -1,17 +1,13 @@
 #include "store/job_store.h"
 
-#include <array>
-
-#include "base/sha256.h"
-#include "store/sqlite.h"
+#include "store/job_store_database.h"
 
 namespace seedframe {
 namespace {
 
 using sqlite::Statement;
 
-constexpr int kVersion = 2;
-constexpr std::array<const char*, 4> kStateNames = {"pending", "running", "done", "failed"};
+constexpr int kVersion = 4;
 
 constexpr const char* kSchema = R"sql(
 CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -19,84 +15,43 @@ CREATE TABLE frames (
   frame INTEGER PRIMARY KEY,
   scene INTEGER NOT NULL,
   frame_id TEXT NOT NULL,
-  state TEXT NOT NULL CHECK (state IN ('pending', 'running', 'done', 'failed')),
+  state TEXT NOT NULL
+    CHECK (state IN ('pending', 'running', 'done', 'failed', 'quarantined')),
   attempts INTEGER NOT NULL DEFAULT 0,
+  crashes INTEGER NOT NULL DEFAULT 0,
   pixel_hash TEXT NOT NULL DEFAULT '',
+  fingerprint TEXT NOT NULL DEFAULT '',
   error TEXT NOT NULL DEFAULT '',
   twin_pixels INTEGER NOT NULL DEFAULT 0,
   twin_inside_px INTEGER NOT NULL DEFAULT 0,
   twin_edge_px INTEGER NOT NULL DEFAULT 0);
 CREATE INDEX frames_by_state ON frames (state);
+CREATE TABLE runs (
+  run INTEGER PRIMARY KEY,
+  started REAL NOT NULL,
+  host TEXT NOT NULL,
+  process INTEGER NOT NULL);
+CREATE TABLE provenances (
+  provenance INTEGER PRIMARY KEY,
+  json TEXT NOT NULL UNIQUE);
 CREATE TABLE attempts (
   frame INTEGER NOT NULL,
   attempt INTEGER NOT NULL,
+  run INTEGER NOT NULL,
   worker INTEGER NOT NULL,
-  outcome TEXT NOT NULL CHECK (outcome IN ('running', 'done', 'failed')),
+  outcome TEXT NOT NULL CHECK (outcome IN ('running', 'done', 'error', 'crash', 'lost')),
   started REAL NOT NULL,
   build_s REAL NOT NULL DEFAULT 0,
   render_s REAL NOT NULL DEFAULT 0,
   finish_s REAL NOT NULL DEFAULT 0,
   message TEXT NOT NULL DEFAULT '',
+  provenance INTEGER REFERENCES provenances (provenance),
   PRIMARY KEY (frame, attempt)) WITHOUT ROWID;
 CREATE INDEX attempts_by_outcome ON attempts (outcome, started);
-PRAGMA user_version = 2;
+PRAGMA user_version = 4;
 )sql";
 
-constexpr const char* kFrameColumns =
-    "SELECT frame, scene, frame_id, state, attempts, pixel_hash, error, twin_pixels, "
-    "twin_inside_px, twin_edge_px FROM frames ";
-
-FrameRow frame_row(const Statement& row) {
-  FrameRow frame;
-  frame.frame = row.integer(0);
-  frame.scene = row.integer(1);
-  frame.frame_id = row.text(2);
-  const std::string state = row.text(3);
-  for (std::size_t i = 0; i < kStateNames.size(); ++i) {
-    if (state == kStateNames[i]) frame.state = static_cast<FrameState>(i);
-  }
-  frame.attempts = static_cast<int>(row.integer(4));
-  frame.pixel_hash = row.text(5);
-  frame.error = row.text(6);
-  frame.twin = {row.integer(7), row.integer(8), row.integer(9)};
-  return frame;
-}
-
-constexpr const char* kAttemptColumns =
-    "SELECT frame, attempt, worker, outcome, started, build_s, render_s, finish_s, message "
-    "FROM attempts ";
-
-AttemptRow attempt_row(const Statement& row) {
-  return {.frame = row.integer(0),
-          .attempt = static_cast<int>(row.integer(1)),
-          .worker = static_cast<int>(row.integer(2)),
-          .outcome = row.text(3),
-          .started = row.real(4),
-          .build_s = row.real(5),
-          .render_s = row.real(6),
-          .finish_s = row.real(7),
-          .message = row.text(8)};
-}
-
 }  // namespace
-
-const char* to_string(FrameState state) { return kStateNames[static_cast<std::size_t>(state)]; }
-
-struct JobStore::Database {
-  sqlite::Connection connection;
-
-  /// Runs `body` between BEGIN and COMMIT; an error rolls back. Inside a transaction it is part of
-  /// that.
-  template <class Body>
-  Status transaction(Body body) {
-    if (sqlite3_get_autocommit(connection.handle()) == 0) return body();
-    if (Status begun = connection.execute("BEGIN IMMEDIATE"); !begun) return begun;
-    Status done = body();
-    if (done) done = connection.execute("COMMIT");
-    if (!done) (void)connection.execute("ROLLBACK");
-    return done;
-  }
-};
 
 JobStore::JobStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
 JobStore::~JobStore() = default;
@@ -111,7 +66,8 @@ Result<JobStore> JobStore::create(const std::filesystem::path& path) {
   auto database = std::make_unique<Database>();
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   if (Status opened = database->connection.open(path, flags); !opened) return forward_error(opened);
-  for (const char* sql : {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = FULL", kSchema}) {
+  // One file and no log beside it while it is made: it is renamed when it is complete.
+  for (const char* sql : {"PRAGMA journal_mode = DELETE", "PRAGMA synchronous = FULL", kSchema}) {
     if (Status done = database->connection.execute(sql); !done) return forward_error(done);
   }
   return JobStore(std::move(database));
@@ -126,7 +82,9 @@ Result<JobStore> JobStore::open(const std::filesystem::path& path) {
   if (Status opened = database->connection.open(path, SQLITE_OPEN_READWRITE); !opened) {
     return forward_error(opened);
   }
-  for (const char* sql : {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = FULL"}) {
+  // A checkpoint waits for the disk: one for 32 MiB of log delays few commits.
+  for (const char* sql : {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = FULL",
+                          "PRAGMA wal_autocheckpoint = 8192"}) {
     if (Status done = database->connection.execute(sql); !done) return forward_error(done);
   }
   Statement version(database->connection, "PRAGMA user_version");
@@ -147,14 +105,6 @@ Status JobStore::set_meta(const std::string& key, const std::string& value) {
   return insert.bind(1, key).bind(2, value).run();
 }
 
-Result<std::string> JobStore::meta(const std::string& key) const {
-  Statement select(database_->connection, "SELECT value FROM meta WHERE key = ?");
-  std::string value;
-  if (select.bind(1, key).step()) value = select.text(0);
-  if (Status done = select.status(); !done) return forward_error(done);
-  return value;
-}
-
 Status JobStore::add_frames(const std::function<Result<std::optional<FrameRow>>()>& next) {
   return database_->transaction([&]() -> Status {
     Statement insert(database_->connection,
@@ -171,10 +121,18 @@ Status JobStore::add_frames(const std::function<Result<std::optional<FrameRow>>(
   });
 }
 
-Status JobStore::reset_running() {
-  return database_->transaction([&]() -> Status {
+Status JobStore::begin_run(double unix_time, const std::string& host, std::int64_t process) {
+  database_->run = 0;
+  std::int64_t run = 0;
+  Status begun = database_->transaction([&]() -> Status {
+    Statement insert(database_->connection,
+                     "INSERT INTO runs (started, host, process) VALUES (?, ?, ?)");
+    if (Status done = insert.bind(1, unix_time).bind(2, host).bind(3, process).run(); !done) {
+      return done;
+    }
+    run = sqlite3_last_insert_rowid(database_->connection.handle());
     if (Status done = database_->connection.execute(
-            "UPDATE attempts SET outcome = 'failed', message = 'the scheduler stopped' "
+            "UPDATE attempts SET outcome = 'lost', message = 'its scheduler ended before it' "
             "WHERE outcome = 'running'");
         !done) {
       return done;
@@ -182,50 +140,76 @@ Status JobStore::reset_running() {
     return database_->connection.execute(
         "UPDATE frames SET state = 'pending' WHERE state = 'running'");
   });
+  if (begun) database_->run = run;
+  return begun;
 }
 
 Status JobStore::reset(std::int64_t frame) {
-  Statement update(database_->connection,
-                   "UPDATE frames SET state = 'pending', pixel_hash = '' WHERE frame = ?");
-  return update.bind(1, frame).run();
+  return database_->transaction([&] {
+    Statement update(database_->connection,
+                     "UPDATE frames SET state = 'pending', pixel_hash = '', fingerprint = '', "
+                     "crashes = 0 WHERE frame = ?");
+    return update.bind(1, frame).run();
+  });
 }
 
-Status JobStore::adopt(std::int64_t frame, const std::string& pixel_hash, const TwinTally& twin) {
-  Statement update(database_->connection,
-                   "UPDATE frames SET state = 'done', pixel_hash = ?, error = '', twin_pixels = ?, "
-                   "twin_inside_px = ?, twin_edge_px = ? WHERE frame = ?");
-  update.bind(1, pixel_hash).bind(2, twin.pixels).bind(3, twin.inside_px).bind(4, twin.edge_px);
-  return update.bind(5, frame).run();
-}
-
-Status JobStore::attempt_started(std::int64_t frame, int attempt, int worker, double unix_time) {
+Status JobStore::renew(std::int64_t frame, const std::string& frame_id) {
   return database_->transaction([&]() -> Status {
+    if (Status done = reset(frame); !done) return done;
+    Statement update(database_->connection, "UPDATE frames SET frame_id = ? WHERE frame = ?");
+    return update.bind(1, frame_id).bind(2, frame).run();
+  });
+}
+
+Status JobStore::adopt(std::int64_t frame, const FrameResult& result) {
+  return database_->transaction([&] {
+    Statement update(database_->connection,
+                     "UPDATE frames SET state = 'done', pixel_hash = ?, fingerprint = ?, "
+                     "error = '', twin_pixels = ?, twin_inside_px = ?, twin_edge_px = ? "
+                     "WHERE frame = ?");
+    update.bind(1, result.pixel_hash).bind(2, result.fingerprint).bind(3, result.twin.pixels);
+    update.bind(4, result.twin.inside_px).bind(5, result.twin.edge_px);
+    return update.bind(6, frame).run();
+  });
+}
+
+Status JobStore::set_fingerprint(std::int64_t frame, const std::string& fingerprint) {
+  return database_->transaction([&] {
+    Statement update(database_->connection, "UPDATE frames SET fingerprint = ? WHERE frame = ?");
+    return update.bind(1, fingerprint).bind(2, frame).run();
+  });
+}
+
+Status JobStore::attempt_started(std::int64_t frame, int attempt, int worker, double unix_time,
+                                 const std::string& provenance) {
+  return database_->transaction([&]() -> Status {
+    if (!provenance.empty()) {
+      Statement add(database_->connection, "INSERT OR IGNORE INTO provenances (json) VALUES (?)");
+      if (Status done = add.bind(1, provenance).run(); !done) return done;
+    }
     Statement insert(database_->connection,
-                     "INSERT INTO attempts (frame, attempt, worker, outcome, started) "
-                     "VALUES (?, ?, ?, 'running', ?)");
-    insert.bind(1, frame).bind(2, std::int64_t{attempt}).bind(3, std::int64_t{worker});
-    if (Status done = insert.bind(4, unix_time).run(); !done) return done;
+                     "INSERT INTO attempts (frame, attempt, run, worker, outcome, started, "
+                     "provenance) VALUES (?, ?, ?, ?, 'running', ?, "
+                     "(SELECT provenance FROM provenances WHERE json = ?))");
+    insert.bind(1, frame).bind(2, std::int64_t{attempt}).bind(3, database_->run);
+    insert.bind(4, std::int64_t{worker});
+    if (Status done = insert.bind(5, unix_time).bind(6, provenance).run(); !done) return done;
     Statement update(database_->connection,
                      "UPDATE frames SET state = 'running', attempts = ? WHERE frame = ?");
     return update.bind(1, std::int64_t{attempt}).bind(2, frame).run();
   });
 }
 
-Status JobStore::frame_done(std::int64_t frame, int attempt, const std::string& pixel_hash,
-                            const TwinTally& twin, const AttemptTimings& timings) {
+Status JobStore::frame_done(std::int64_t frame, int attempt, const FrameResult& result,
+                            const AttemptTimings& timings) {
   return database_->transaction([&]() -> Status {
-    // Only the attempt that is under way may commit: a late report changes nothing.
-    Statement update(database_->connection,
-                     "UPDATE frames SET state = 'done', pixel_hash = ?, error = '', "
-                     "twin_pixels = ?, twin_inside_px = ?, twin_edge_px = ? "
-                     "WHERE frame = ? AND attempts = ? AND state = 'running'");
-    update.bind(1, pixel_hash).bind(2, twin.pixels).bind(3, twin.inside_px).bind(4, twin.edge_px);
-    update.bind(5, frame).bind(6, std::int64_t{attempt});
-    if (Status done = update.run(); !done) return done;
-    if (sqlite3_changes(database_->connection.handle()) != 1) {
+    const Result<bool> under_way = is_under_way(frame, attempt);
+    if (!under_way) return forward_error(under_way);
+    if (!*under_way) {
       return fail(ErrorKind::kCorrupt, "attempt {} of frame {} is not the one under way", attempt,
                   frame);
     }
+    if (Status done = adopt(frame, result); !done) return done;
     Statement finish(database_->connection,
                      "UPDATE attempts SET outcome = 'done', build_s = ?, render_s = ?, "
                      "finish_s = ? WHERE frame = ? AND attempt = ?");
@@ -234,21 +218,27 @@ Status JobStore::frame_done(std::int64_t frame, int attempt, const std::string& 
   });
 }
 
-Status JobStore::attempt_failed(std::int64_t frame, int attempt, const std::string& message,
-                                bool final) {
+Status JobStore::attempt_failed(std::int64_t frame, int attempt, AttemptOutcome outcome,
+                                FrameState next, const std::string& message) {
   return database_->transaction([&]() -> Status {
+    const std::int64_t crashes = outcome == AttemptOutcome::kCrash ? 1 : 0;
     Statement update(database_->connection,
-                     "UPDATE frames SET state = ?1, error = ?2, attempts = ?4 "
-                     "WHERE frame = ?3 AND attempts <= ?4 AND state <> 'done'");
-    update.bind(1, std::string(final ? "failed" : "pending")).bind(2, message).bind(3, frame);
-    if (Status done = update.bind(4, std::int64_t{attempt}).run(); !done) return done;
+                     "UPDATE frames SET state = ?1, error = ?2, attempts = ?4, "
+                     "crashes = crashes + ?5 WHERE frame = ?3 AND attempts <= ?4 "
+                     "AND state <> 'done' AND NOT EXISTS (SELECT 1 FROM attempts "
+                     "WHERE frame = ?3 AND attempt = ?4 AND outcome <> 'running')");
+    update.bind(1, std::string(to_string(next))).bind(2, message).bind(3, frame);
+    if (Status done = update.bind(4, std::int64_t{attempt}).bind(5, crashes).run(); !done) {
+      return done;
+    }
+    if (sqlite3_changes(database_->connection.handle()) == 0) return {};
     // A request that could not be made fails before any worker starts on it.
     Statement finish(database_->connection,
-                     "INSERT INTO attempts (frame, attempt, worker, outcome, started, message) "
-                     "VALUES (?, ?, -1, 'failed', 0, ?) ON CONFLICT (frame, attempt) "
-                     "DO UPDATE SET outcome = 'failed', message = excluded.message");
-    finish.bind(1, frame).bind(2, std::int64_t{attempt});
-    return finish.bind(3, message).run();
+                     "INSERT INTO attempts (frame, attempt, run, worker, outcome, started, message)"
+                     " VALUES (?, ?, ?, -1, ?, 0, ?) ON CONFLICT (frame, attempt) "
+                     "DO UPDATE SET outcome = excluded.outcome, message = excluded.message");
+    finish.bind(1, frame).bind(2, std::int64_t{attempt}).bind(3, database_->run);
+    return finish.bind(4, std::string(to_string(outcome))).bind(5, message).run();
   });
 }
 
@@ -259,110 +249,6 @@ Status JobStore::write_together(Sync sync, const std::function<Status()>& body) 
   const Status written = database_->transaction(body);
   const Status reset = database_->connection.execute("PRAGMA synchronous = FULL");
   return written ? reset : written;
-}
-
-Result<FrameCounts> JobStore::counts() const {
-  Statement select(database_->connection, "SELECT state, count(*) FROM frames GROUP BY state");
-  FrameCounts counts;
-  while (select.step()) {
-    const std::string state = select.text(0);
-    const std::int64_t count = select.integer(1);
-    if (state == "pending") counts.pending = count;
-    if (state == "running") counts.running = count;
-    if (state == "done") counts.done = count;
-    if (state == "failed") counts.failed = count;
-  }
-  if (Status done = select.status(); !done) return forward_error(done);
-  return counts;
-}
-
-Result<std::optional<FrameRow>> JobStore::frame(std::int64_t frame) const {
-  const std::string sql = std::string(kFrameColumns) + "WHERE frame = ?";
-  Statement select(database_->connection, sql.c_str());
-  std::optional<FrameRow> row;
-  if (select.bind(1, frame).step()) row = frame_row(select);
-  if (Status done = select.status(); !done) return forward_error(done);
-  return row;
-}
-
-Status JobStore::for_each_frame(const std::function<Status(const FrameRow&)>& visit) const {
-  const std::string sql = std::string(kFrameColumns) + "ORDER BY frame";
-  Statement select(database_->connection, sql.c_str());
-  while (select.step()) {
-    if (Status done = visit(frame_row(select)); !done) return done;
-  }
-  return select.status();
-}
-
-Result<std::vector<FrameRow>> JobStore::frames_from(std::int64_t first, int most) const {
-  const std::string sql = std::string(kFrameColumns) + "WHERE frame >= ? ORDER BY frame LIMIT ?";
-  Statement select(database_->connection, sql.c_str());
-  select.bind(1, first).bind(2, std::int64_t{most});
-  std::vector<FrameRow> rows;
-  while (select.step()) rows.push_back(frame_row(select));
-  if (Status done = select.status(); !done) return forward_error(done);
-  return rows;
-}
-
-Result<std::vector<AttemptRow>> JobStore::attempts(std::int64_t frame) const {
-  const std::string sql = std::string(kAttemptColumns) + "WHERE frame = ? ORDER BY attempt";
-  Statement select(database_->connection, sql.c_str());
-  select.bind(1, frame);
-  std::vector<AttemptRow> rows;
-  while (select.step()) rows.push_back(attempt_row(select));
-  if (Status done = select.status(); !done) return forward_error(done);
-  return rows;
-}
-
-Result<std::vector<AttemptRow>> JobStore::recent_failures(int most) const {
-  const std::string sql = std::string(kAttemptColumns) +
-                          "WHERE outcome = 'failed' ORDER BY started DESC, frame DESC LIMIT ?";
-  Statement select(database_->connection, sql.c_str());
-  select.bind(1, std::int64_t{most});
-  std::vector<AttemptRow> rows;
-  while (select.step()) rows.push_back(attempt_row(select));
-  if (Status done = select.status(); !done) return forward_error(done);
-  return rows;
-}
-
-Result<TwinSummary> JobStore::twin_summary() const {
-  Statement select(
-      database_->connection,
-      "SELECT count(*), count(CASE WHEN twin_inside_px + twin_edge_px > 0 THEN 1 END), "
-      "sum(twin_pixels), sum(twin_inside_px), sum(twin_edge_px) FROM frames "
-      "WHERE state = 'done' AND twin_pixels > 0");
-  TwinSummary summary;
-  if (select.step()) {
-    summary.frames = select.integer(0);
-    summary.frames_differing = select.integer(1);
-    summary.sum = {select.integer(2), select.integer(3), select.integer(4)};
-  }
-  if (Status done = select.status(); !done) return forward_error(done);
-  return summary;
-}
-
-Result<std::optional<AttemptTimings>> JobStore::mean_timings(int most) const {
-  Statement select(database_->connection,
-                   "SELECT count(*), avg(build_s), avg(render_s), avg(finish_s) FROM (SELECT * "
-                   "FROM attempts WHERE outcome = 'done' ORDER BY started DESC LIMIT ?)");
-  std::optional<AttemptTimings> mean;
-  if (select.bind(1, std::int64_t{most}).step() && select.integer(0) > 0) {
-    mean = {.build_s = select.real(1), .render_s = select.real(2), .finish_s = select.real(3)};
-  }
-  if (Status done = select.status(); !done) return forward_error(done);
-  return mean;
-}
-
-Result<std::string> JobStore::dataset_hash() const {
-  Sha256 hash;
-  bool complete = true;
-  const Status visited = for_each_frame([&](const FrameRow& row) -> Status {
-    complete = complete && row.state == FrameState::kDone;
-    hash.update(fmt::format("{} {} {}\n", row.frame, row.frame_id, row.pixel_hash));
-    return {};
-  });
-  if (!visited) return forward_error(visited);
-  return complete ? hash.hex() : std::string();
 }
 
 }  // namespace seedframe

@@ -33,10 +33,25 @@ class Connection {
   }
 
   tl::unexpected<Error> failure(const char* action) const {
-    const int code = sqlite3_errcode(handle_) & 0xff;
-    const bool damaged = code == SQLITE_NOTADB || code == SQLITE_CORRUPT || code == SQLITE_ERROR;
-    return fail(damaged ? ErrorKind::kCorrupt : ErrorKind::kEnvironment,
-                "cannot {} the job store {}: {}", action, path_.string(), sqlite3_errmsg(handle_));
+    return fail(kind_of(sqlite3_errcode(handle_)), "cannot {} the job store {}: {}", action,
+                path_.string(), sqlite3_errmsg(handle_));
+  }
+
+  static ErrorKind kind_of(int code) {
+    switch (code & 0xff) {
+      case SQLITE_NOTADB:
+      case SQLITE_CORRUPT:
+      case SQLITE_ERROR:
+        return ErrorKind::kCorrupt;
+      case SQLITE_FULL:
+      case SQLITE_IOERR:
+      case SQLITE_READONLY:
+      case SQLITE_CANTOPEN:  // too many open files, too
+      case SQLITE_NOMEM:
+        return ErrorKind::kExhausted;
+      default:
+        return ErrorKind::kEnvironment;
+    }
   }
 
   sqlite3* handle() const { return handle_; }

@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "geometry/ray_scene.h"
+#include "scene/frame_spec.h"
 
 namespace seedframe {
 namespace {
 
 using Eigen::Vector3d;
-using Rgb = std::array<double, 3>;
 
 constexpr int kSubpixels = 4;  // both ways
 

@@ -97,7 +97,7 @@ Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers
                                   .threads = threads_});
     return Twin(std::move(scene), std::move(image), std::move(ids));
   } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::kEnvironment,
+    return fail(ErrorKind::kExhausted,
                 "there is not enough memory to trace a frame of {} instances, {}x{} pixels",
                 spec.instances.size(), spec.render.width, spec.render.height);
   }

@@ -60,7 +60,7 @@ class TwinTracer {
     kAsked,  ///< depth and normal too when the spec asks for them
   };
   /// `buffers` holds those of the spec's meshes; a damaged or a missing one is an error, as is a
-  /// lack of memory (kEnvironment).
+  /// lack of memory (kExhausted).
   Result<Twin> trace(const FrameSpec& spec, const MeshBuffers& buffers, Passes passes);
 
  private:

@@ -22,6 +22,12 @@ using Bitmap = Image<std::uint8_t>;
 inline constexpr int kMaskId = 7;
 inline constexpr int kOtherId = 300;
 
+/// Of the first instance, where there is but one.
+inline Mask only_mask(const IdImage& ids) {
+  const InstanceExtent extent = measure_extents(ids).front();
+  return {ids, extent.id, extent.box};
+}
+
 struct MaskCase {
   std::string name;
   IdImage ids;

@@ -31,11 +31,6 @@ IdImage ring(int size, double outer, double inner) {
   return ids;
 }
 
-Mask only_mask(const IdImage& ids) {
-  const InstanceExtent extent = measure_extents(ids).front();
-  return {ids, extent.id, extent.box};
-}
-
 std::size_t vertices(const std::vector<Polygon>& polygons) {
   std::size_t count = 0;
   for (const Polygon& polygon : polygons) count += polygon.size();

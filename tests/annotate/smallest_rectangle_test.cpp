@@ -12,11 +12,6 @@
 namespace seedframe {
 namespace {
 
-Mask only_mask(const IdImage& ids) {
-  const InstanceExtent extent = measure_extents(ids).front();
-  return {ids, extent.id, extent.box};
-}
-
 double area_of(const OrientedBox& box) {
   const auto side = [&](std::size_t i, std::size_t j) {
     return std::hypot(box.corners[i][0] - box.corners[j][0], box.corners[i][1] - box.corners[j][1]);

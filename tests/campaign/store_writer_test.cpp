@@ -1,5 +1,8 @@
 #include "campaign/store_writer.h"
 
+#include <map>
+#include <random>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +48,11 @@ class StoreWriterTest : public ::testing::Test {
     ASSERT_TRUE(write_file_unsynced(attempt / "image.png", std::to_string(job.attempt)));
   }
 
+  /// As file and pixel hash say which attempt it is.
+  static FrameFinished finished(const FrameJob& job) {
+    return {job, std::to_string(job.attempt), {}, {}};
+  }
+
   FrameRow row(std::int64_t frame) { return store_->frame(frame)->value(); }
 
   static constexpr std::int64_t kFrames = 200;
@@ -73,7 +81,8 @@ TEST_F(StoreWriterTest, WhatWasPushedIsWrittenInTheEnd) {
 
 TEST_F(StoreWriterTest, EventsOfOneFrameKeepTheirOrder) {
   finish_on_disk({3, 2});
-  write({AttemptStarted{{3, 1}, 0, 1.0}, AttemptFailed{{3, 1}, "died", false},
+  write({AttemptStarted{{3, 1}, 0, 1.0},
+         AttemptFailed{{3, 1}, {Failure::kCrash, Consequence::kRetry, "died", {}}},
          AttemptStarted{{3, 2}, 1, 2.0}, FrameFinished{{3, 2}, "hash", {}, {.render_s = 0.5}}});
   EXPECT_EQ(row(3).state, FrameState::kDone);
   EXPECT_EQ(row(3).attempts, 2);
@@ -95,6 +104,93 @@ TEST_F(StoreWriterTest, AnAttemptThatOnlyStartedIsVisibleToOtherReaders) {
   const auto reader = JobStore::open(files_->store());
   ASSERT_TRUE(reader);
   EXPECT_EQ((*reader->frame(7))->state, FrameState::kRunning);
+}
+
+TEST_F(StoreWriterTest, ALateOrRepeatedReportChangesNeitherStoreNorFiles) {
+  finish_on_disk({3, 1});
+  finish_on_disk({3, 2});
+  write({AttemptStarted{{3, 1}, 0, 1.0},
+         AttemptFailed{{3, 1}, {Failure::kCrash, Consequence::kRetry, "hung", {}}},
+         AttemptStarted{{3, 2}, 1, 2.0}, FrameFinished{{3, 1}, "late", {}, {}}});
+  EXPECT_EQ(row(3).state, FrameState::kRunning);
+  EXPECT_FALSE(fs::exists(files_->frame(3))) << "dropped before its folder got its name";
+  write({FrameFinished{{3, 2}, "right", {}, {}}});
+  write({FrameFinished{{3, 1}, "late", {}, {}}, FrameFinished{{3, 2}, "twice", {}, {}}});
+  EXPECT_EQ(failed_, 0) << "dropped, which is no error";
+  EXPECT_EQ(row(3).pixel_hash, "right");
+  EXPECT_EQ(*read_file(files_->frame(3) / "image.png"), "2");
+}
+
+TEST_F(StoreWriterTest, ARunThatWasReplacedPutsNothingIntoPlace) {
+  ASSERT_TRUE(store_->begin_run(1.0, "here", 1));
+  finish_on_disk({3, 1});
+  write({AttemptStarted{{3, 1}, 0, 1.0}});
+  auto other = JobStore::open(files_->store());
+  ASSERT_TRUE(other);
+  ASSERT_TRUE(other->begin_run(2.0, "there", 2));
+  write({FrameFinished{{3, 1}, "late", {}, {}}});
+  EXPECT_EQ(failed_, 1);
+  EXPECT_FALSE(fs::exists(files_->frame(3)));
+}
+
+// Ten thousand random orders of what attempts of three frames report, late and twice: the first
+// attempt to commit stays, and its files are the ones in place.
+TEST_F(StoreWriterTest, NoOrderOfReportsOverwritesACommittedFrame) {
+  std::mt19937 random(1);  // of a test, not of a dataset
+  constexpr int kRounds = 10'000;
+  constexpr int kFramesARound = 3;
+  std::vector<StoreEvent> events;
+  std::map<std::int64_t, int> winner;  // attempt by frame, as it must come out
+  int overwrites = 0;
+  const auto flush = [&] {
+    write(events);
+    for (const auto& [frame, attempt] : winner) {
+      const FrameRow now = row(frame);
+      const auto file = read_file(files_->frame(frame) / "image.png");
+      if (now.attempts != attempt || now.pixel_hash != std::to_string(attempt) || !file ||
+          *file != std::to_string(attempt)) {
+        ++overwrites;
+      }
+    }
+    ASSERT_TRUE(store_->write_together(JobStore::Sync::kLater, [&]() -> Status {
+      for (const auto& [frame, attempt] : winner) {
+        if (Status done = store_->renew(frame, "next round"); !done) return done;
+      }
+      return {};
+    }));
+    events.clear();
+    winner.clear();
+  };
+  std::map<std::int64_t, int> last_attempt;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::int64_t frame = (round * kFramesARound) % kFrames;
+    if (winner.contains(frame)) flush();
+    const int first = last_attempt[frame] + 1;
+    const int attempts = 1 + static_cast<int>(random() % 3);
+    const int commits = static_cast<int>(random() % attempts);  // the one that is not given up
+    for (int i = 0; i < attempts; ++i) {
+      const FrameJob job = {frame, first + i};
+      finish_on_disk(job);
+      events.emplace_back(AttemptStarted{job, 0, 1.0});
+      if (random() % 2 == 0 && i > 0) events.emplace_back(finished({frame, first + i - 1}));
+      if (i < commits) {
+        events.emplace_back(AttemptFailed{job, {Failure::kCrash, Consequence::kRetry, "hung", {}}});
+      } else {
+        events.emplace_back(finished(job));
+        winner[frame] = job.attempt;
+        last_attempt[frame] = job.attempt;
+        break;
+      }
+    }
+    for (int late = 0; late < 2; ++late) {
+      events.emplace_back(finished({frame, first + static_cast<int>(random() % attempts)}));
+      events.emplace_back(AttemptFailed{{frame, first + static_cast<int>(random() % attempts)},
+                                        {Failure::kCrash, Consequence::kQuarantined, "late", {}}});
+    }
+  }
+  flush();
+  EXPECT_EQ(overwrites, 0);
+  EXPECT_EQ(failed_, 0);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // Overlapping objects of every kind, some beyond the image's edge; bolts have keypoints.
-constexpr const char* kConfig = R"(seedframe: 1
+constexpr const char* kParts = R"(seedframe: 1
 name: parts
 scenes: 8
 frames_per_scene: 3
@@ -47,7 +47,7 @@ class ExportTest : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    write("parts.yaml", kConfig + ("image: {ocio_config: " + kOcioConfig + "}\n"));
+    write("parts.yaml", kParts + ("image: {ocio_config: " + kOcioConfig + "}\n"));
     ASSERT_EQ(
         run({"submit", "parts.yaml", "-o", "c", "--set", "labels=geometry", "--quiet"}).exit_code,
         0);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kConfig = R"(seedframe: 1
+constexpr const char* kFaults = R"(seedframe: 1
 name: faults
 scenes: 4
 frames_per_scene: 3
@@ -39,7 +40,7 @@ class FaultsTest : public ProgramTest {
     ProgramTest::SetUp();
     // The fake draws rectangles: no twin would agree.
     write("faults.yaml",
-          kConfig + ("labels: {check: false}\nimage: {ocio_config: " + kOcioConfig + "}\n"));
+          kFaults + ("labels: {check: false}\nimage: {ocio_config: " + kOcioConfig + "}\n"));
   }
   Outcome submit(const std::string& fake, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments = {"submit",    "faults.yaml", "-o",        "c",
@@ -81,29 +82,29 @@ TEST_F(FaultsTest, AGoodCampaignIsDoneAndResumesToNothing) {
 
 TEST_F(FaultsTest, EveryFaultIsRetriedAndTheDatasetIsThatOfAnUndisturbedRun) {
   const std::string expected = undisturbed_hash();
-  for (const char* fault :
-       {"crash", "exit", "hang", "garbage", "wrong_frame", "wrong_attempt", "fail", "no_file",
-        "half_exr", "nan", "wrong_size", "wrong_id", "fractional_id"}) {
+  for (const char* fault : {"crash", "exit", "hang", "freeze", "ignore_term", "garbage",
+                            "wrong_frame", "wrong_attempt", "fail", "no_file", "other_frame",
+                            "half_exr", "nan", "wrong_size", "wrong_id", "fractional_id"}) {
     std::filesystem::remove_all(folder_ / "c");
-    const Outcome outcome =
-        submit("{\"" + std::string(fault) + "_frames\": [1, 7]}", {"--frame-timeout", "1.5"});
+    const Outcome outcome = submit("{\"" + std::string(fault) + "_frames\": [1, 7]}",
+                                   {"--frame-timeout", "1.5", "--heartbeat-timeout", "1.2"});
     EXPECT_EQ(outcome.exit_code, 0) << fault << ": " << outcome.errors;
-    EXPECT_THAT(outcome.errors, HasSubstr("frame 7, attempt 1 failed, trying again")) << fault;
+    EXPECT_THAT(outcome.errors,
+                testing::ContainsRegex("frame 7, attempt 1 (failed|cost a worker), trying again"))
+        << fault;
     EXPECT_EQ(status("c").at("dataset_hash"), expected) << fault;
   }
 }
 
 TEST_F(FaultsTest, AFrameThatAlwaysFailsIsNamedAndTheOthersAreDone) {
-  const Outcome outcome = submit(R"({"crash_frames": [4], "crash_attempts": 99})");
+  const Outcome outcome = submit(R"({"fail_frames": [4], "fail_attempts": 99})");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
   EXPECT_THAT(outcome.errors, HasSubstr("frame 4, attempt 3 failed for good"));
   const Json state = status("c");
   EXPECT_EQ(state.at("done"), kFrames - 1);
   EXPECT_EQ(state.at("failed"), 1);
   EXPECT_EQ(state.at("dataset_hash"), "");
-  EXPECT_THAT(state.at("recent_failures").at(0).at("message").get<std::string>(),
-              HasSubstr("frame 4 is too much"))
-      << "the end of the worker's log";
+  EXPECT_EQ(state.at("recent_failures").at(0).at("message"), "fake: will not render");
   EXPECT_FALSE(exists("c/frames/000/000004"));
 
   EXPECT_EQ(run({"export", "c", "--format", "coco"}).exit_code, 2) << "incomplete";
@@ -111,6 +112,36 @@ TEST_F(FaultsTest, AFrameThatAlwaysFailsIsNamedAndTheOthersAreDone) {
 
   EXPECT_EQ(resume().exit_code, 0) << "the fault is gone, and a resume tries again";
   EXPECT_EQ(status("c").at("dataset_hash"), undisturbed_hash());
+}
+
+TEST_F(FaultsTest, AFrameThatCostsThreeWorkersIsQuarantinedWithItsLogAndCommand) {
+  const Outcome outcome = submit(R"({"crash_frames": [4], "crash_attempts": 99})");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("frame 4, attempt 3 cost a worker and is quarantined"));
+  EXPECT_THAT(outcome.output, HasSubstr("1 frames are quarantined"));
+  const Json state = status("c");
+  EXPECT_EQ(state.at("done"), kFrames - 1);
+  EXPECT_EQ(state.at("quarantined"), 1);
+  EXPECT_EQ(state.at("quarantined_frames").at(0).at("frame"), 4);
+  const auto log = read_file(folder_ / "c/logs/crash-000004-3.log");
+  ASSERT_TRUE(log);
+  EXPECT_THAT(*log, HasSubstr("frame 4 is too much"));
+  EXPECT_THAT(*log, HasSubstr("seedframe resume c --frame 4 --workers 1"));
+  EXPECT_THAT(run({"status", "c"}).output, HasSubstr("seedframe resume c --frame 4 --workers 1"));
+
+  EXPECT_EQ(resume().exit_code, 3) << "a quarantined frame is left alone";
+  EXPECT_EQ(status("c").at("quarantined"), 1);
+  EXPECT_EQ(resume({"--frame", "4"}).exit_code, 0) << "unless it is asked for";
+  EXPECT_EQ(status("c").at("dataset_hash"), undisturbed_hash());
+}
+
+TEST_F(FaultsTest, CrashesAreCountedOverAllRuns) {
+  const std::string crashing = R"({"crash_frames": [4], "crash_attempts": 99})";
+  EXPECT_EQ(submit(crashing, {"--max-crashes", "1"}).exit_code, 3);
+  EXPECT_EQ(status("c").at("quarantined"), 1);
+  EXPECT_EQ(resume({"--frame", "4", "--max-crashes", "2"}, crashing).exit_code, 3);
+  EXPECT_EQ(status("c").at("quarantined_frames").at(0).at("crashes"), 2)
+      << "asked for, it began anew";
 }
 
 TEST_F(FaultsTest, ABlenderThatNeverStartsIsAnErrorOfTheEnvironment) {
@@ -168,10 +199,17 @@ TEST_F(FaultsTest, DamagedFramesAreFoundAndRenderedAgain) {
   EXPECT_THAT(outcome.errors, HasSubstr("000002/image.png is missing"));
   EXPECT_EQ(status("c").at("dataset_hash"), hash);
 
-  // One flipped bit keeps the size: --verify reads the contents, and so does export.
+  // One flipped bit keeps the size, but not the time of modification.
   std::string image = *read_file(folder_ / "c/frames/000/000001/image.png");
   image[image.size() / 2] = static_cast<char>(image[image.size() / 2] ^ 1);
   write("c/frames/000/000001/image.png", image);
+  EXPECT_THAT(resume().output, HasSubstr("1 in this run"));
+  EXPECT_EQ(status("c").at("dataset_hash"), hash);
+
+  // A failing disk changes no time: --verify reads the contents, and so does export.
+  const auto time = std::filesystem::last_write_time(folder_ / "c/frames/000/000001/image.png");
+  write("c/frames/000/000001/image.png", image);
+  std::filesystem::last_write_time(folder_ / "c/frames/000/000001/image.png", time);
   EXPECT_THAT(resume().output, HasSubstr("0 in this run"));
   const Outcome refused = run({"export", "c", "--format", "coco"});
   EXPECT_EQ(refused.exit_code, 5);
@@ -198,11 +236,11 @@ TEST_F(FaultsTest, AFrameThatTheStoreDidNotSeeIsTakenOver) {
 }
 
 TEST_F(FaultsTest, OneFrameCanBeRenderedAgain) {
-  ASSERT_EQ(submit("{}").exit_code, 0);
+  ASSERT_EQ(submit("{}", {"--threads", "1"}).exit_code, 0);
   const std::string provenance = *read_file(folder_ / "c/provenance.json");
   EXPECT_THAT(provenance, HasSubstr("\"gear\""));
   const auto before = contents("c/frames/000/000006");
-  const Outcome outcome = resume({"--frame", "6"});
+  const Outcome outcome = resume({"--frame", "6", "--threads", "1"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("1 in this run"));
   EXPECT_EQ(contents("c/frames/000/000006"), before);
@@ -221,7 +259,38 @@ TEST_F(FaultsTest, WorkersAndOrderChangeNoByteOfTheDataset) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   }
   EXPECT_EQ(contents("c/exports"), contents("one/exports"));
-  EXPECT_EQ(*read_file(folder_ / "c/provenance.json"), *read_file(folder_ / "one/provenance.json"));
+  Json provenances[2] = {*parse_json(*read_file(folder_ / "c/provenance.json"), "c"),
+                         *parse_json(*read_file(folder_ / "one/provenance.json"), "one")};
+  for (Json& provenance : provenances) {
+    ASSERT_EQ(provenance.at("attempts").size(), 1u) << "one kind of worker, whatever their number";
+    provenance.at("attempts").at(0).erase("threads");
+  }
+  EXPECT_EQ(provenances[0], provenances[1]);
+}
+
+TEST_F(FaultsTest, WhatAFrameWasMadeWithIsToldAndAChangeOfItToo) {
+  ASSERT_EQ(submit(R"({"fail_frames": [4], "fail_attempts": 99})").exit_code, 3);
+  const Outcome explained = run({"explain", "c", "0", "--json"});
+  const Json made_with = Json::parse(explained.output).at("attempts").at(0).at("provenance");
+  EXPECT_EQ(made_with.at("kernel"), "avx2");
+  EXPECT_EQ(made_with.at("scripts_sha256").get<std::string>().size(), 64u);
+  EXPECT_THAT(run({"status", "c"}).output, Not(HasSubstr("made with")));
+
+  const Outcome resumed =
+      run({"resume", "c", "--blender", kFakeBlender}, {R"(SEEDFRAME_FAKE={"kernel": "avx"})"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
+  EXPECT_THAT(resumed.errors, HasSubstr("this run renders with kernel avx instead of avx2"));
+  EXPECT_THAT(run({"status", "c"}).output,
+              HasSubstr("some attempts were made with kernel avx instead of avx2"));
+}
+
+TEST_F(FaultsTest, AWorkerThatCannotKeepThePinEndsTheRunAndChargesNoFrame) {
+  const Outcome outcome = run({"submit", "faults.yaml", "-o", "c", "--blender", kFakeBlender,
+                               "--set", "determinism={mode: portable, isa: avx}"});
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.errors;
+  EXPECT_THAT(outcome.errors,
+              HasSubstr("pins Cycles to its kernel avx, and this machine uses avx2"));
+  EXPECT_EQ(status("c").at("pending"), kFrames);
 }
 
 TEST_F(FaultsTest, OneSchedulerPerCampaign) {
@@ -238,13 +307,90 @@ TEST_F(FaultsTest, OneSchedulerPerCampaign) {
   EXPECT_EQ(wait(pid).exit_code, 0);
 }
 
-TEST_F(FaultsTest, AChangedConfigIsNotResumed) {
+TEST_F(FaultsTest, ACopiedCampaignIsReadOnceAndKept) {
+  ASSERT_EQ(submit("{}").exit_code, 0);
+  const std::string hash = status("c").at("dataset_hash");
+  std::filesystem::copy(folder_ / "c", folder_ / "copy", std::filesystem::copy_options::recursive);
+  std::filesystem::rename(folder_ / "copy", folder_ / "c2");
+  const Outcome outcome = run({"resume", "c2", "--blender", kFakeBlender});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("0 in this run"));
+  EXPECT_EQ(status("c2").at("dataset_hash"), hash);
+}
+
+TEST_F(FaultsTest, AChangedConfigIsAnotherDatasetAndMadeAnew) {
   submit("{}", {"--frames", "3"});
   std::string text = *read_file(folder_ / "c/campaign.yaml");
   write("c/campaign.yaml", text.replace(text.find("0.5]"), 4, "0.6]"));
   const Outcome outcome = resume();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("12 frames are others now"));
+  EXPECT_THAT(outcome.errors, HasSubstr("  campaign.yaml\n"));
+  EXPECT_THAT(outcome.output, HasSubstr("12 in this run"));
+  write("faults.yaml", text);
+  EXPECT_EQ(status("c").at("dataset_hash"), undisturbed_hash());
+}
+
+TEST_F(FaultsTest, AConfigOfMoreFramesIsNotResumed) {
+  ASSERT_EQ(submit("{}").exit_code, 0);
+  std::string text = *read_file(folder_ / "c/campaign.yaml");
+  write("c/campaign.yaml", text.replace(text.find("scenes: 4"), 9, "scenes: 5"));
+  const Outcome outcome = resume();
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.errors, HasSubstr("would be another image"));
+  EXPECT_THAT(outcome.errors, HasSubstr("submitted with 12 frames, its config asks for 15 now"));
+}
+
+TEST_F(FaultsTest, AChangedAssetCostsExactlyTheFramesThatShowIt) {
+  std::filesystem::create_directories(folder_ / "parts");
+  std::filesystem::copy(SEEDFRAME_HOME "/assets/gear", folder_ / "parts/gear",
+                        std::filesystem::copy_options::recursive);
+  std::string text = *read_file(folder_ / "faults.yaml");
+  text.replace(text.find("[1, 3]"), 6, "[0, 1]");
+  write("faults.yaml", text + "asset_folders: [parts]\n");
+  ASSERT_EQ(submit("{}").exit_code, 0);
+  int with_gear = 0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const auto spec = read_file(folder_ / fmt::format("c/frames/000/{:06}/frame.json", frame));
+    with_gear += spec->find("\"gear\"") != std::string::npos ? 1 : 0;
+  }
+  ASSERT_GT(with_gear, 0);
+  ASSERT_LT(with_gear, kFrames);
+  const std::string before = status("c").at("dataset_hash");
+
+  ASSERT_EQ(run({"asset", "keypoints", "gear", "hub=0,0,0", "--root", "parts"}).exit_code, 0);
+  const Outcome outcome = resume();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr(fmt::format("({} in this run", with_gear)));
+  EXPECT_THAT(outcome.errors, HasSubstr("parts/gear/asset.json"));
+  EXPECT_NE(status("c").at("dataset_hash"), before);
+  EXPECT_EQ(status("c").at("dataset_hash"), undisturbed_hash());
+  EXPECT_THAT(resume().output, HasSubstr("0 in this run"));
+}
+
+TEST_F(FaultsTest, ASubmissionThatWasKilledLeavesNothingInTheWay) {
+  const std::string expected = undisturbed_hash();
+  std::filesystem::create_directories(folder_ / "c/frames");
+  write("c/campaign.lock", "");
+  write("c/campaign.yaml", "half a conf");
+  write("c/campaign.sqlite.new", "half a store");
+  EXPECT_EQ(submit("{}").exit_code, 0);
+  EXPECT_EQ(status("c").at("dataset_hash"), expected);
+  EXPECT_FALSE(exists("c/campaign.sqlite.new"));
+
+  std::filesystem::create_directories(folder_ / "mine");
+  write("mine/campaign.yaml", "the user's own");
+  const Outcome refused = run({"submit", "faults.yaml", "-o", "mine", "--blender", kFakeBlender});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("mine is not empty"));
+  EXPECT_EQ(*read_file(folder_ / "mine/campaign.yaml"), "the user's own");
+}
+
+TEST_F(FaultsTest, ACampaignThatWillNotFitIsNotStarted) {
+  const Outcome large =
+      run({"submit", "faults.yaml", "-o", "large", "--blender", kFakeBlender, "--set",
+           "render.width=16384", "--set", "render.height=16384", "--set", "scenes=300"});
+  EXPECT_EQ(large.exit_code, 4) << large.errors;
+  EXPECT_THAT(large.errors, HasSubstr("--no-space-check"));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kConfig = R"(seedframe: 1
+constexpr const char* kTwins = R"(seedframe: 1
 name: twins
 scenes: 3
 frames_per_scene: 2
@@ -27,7 +27,7 @@ class TwinCampaign : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    write("twins.yaml", kConfig + ("image: {ocio_config: " + kOcioConfig + "}\n"));
+    write("twins.yaml", kTwins + ("image: {ocio_config: " + kOcioConfig + "}\n"));
   }
   Outcome label(const std::string& folder, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments = {"submit", "twins.yaml",      "-o",        folder,

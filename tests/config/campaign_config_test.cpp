@@ -127,7 +127,7 @@ TEST(CampaignConfig, AnAliasBombIsRefusedQuickly) {
     for (int j = 0; j < 10; ++j) bomb += (j > 0 ? ", *a" : "*a") + std::to_string(i - 1);
     bomb += "]\n";
   }
-  EXPECT_THAT(error_of(bomb), HasSubstr("more than 1000000 values"));
+  EXPECT_THAT(error_of(bomb), HasSubstr("more than 250000 values"));
 }
 
 TEST(CampaignConfig, TheSourceOfLabelsMayStandAlone) {

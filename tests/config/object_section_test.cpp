@@ -10,20 +10,20 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string error_of(const std::string& text) {
+std::string section_error(const std::string& text) {
   const auto config = read_campaign_config(text, "scene.yaml");
   return config ? "(no error)" : config.error().message;
 }
 
-struct Case {
+struct SectionCase {
   const char* text;
   const char* expected;
 };
 
-void expect_errors(const std::string& start, const std::vector<Case>& cases,
+void expect_errors(const std::string& start, const std::vector<SectionCase>& cases,
                    const std::string& end) {
-  for (const Case& c : cases) {
-    EXPECT_THAT(error_of(start + c.text + end), HasSubstr(c.expected)) << c.text;
+  for (const SectionCase& c : cases) {
+    EXPECT_THAT(section_error(start + c.text + end), HasSubstr(c.expected)) << c.text;
   }
 }
 
@@ -68,9 +68,9 @@ TEST(ObjectSection, MistakesAreNamedWithTheirPlace) {
 }
 
 TEST(GroupSection, NeedsNoAsset) {
-  EXPECT_EQ(error_of("seedframe: 1\ncamera: {distance_m: 1}\nobjects: {g: {objects: {}}}\n"),
+  EXPECT_EQ(section_error("seedframe: 1\ncamera: {distance_m: 1}\nobjects: {g: {objects: {}}}\n"),
             "(no error)");
-  EXPECT_THAT(error_of("seedframe: 1\ncamera: {distance_m: 1}\nobjects: {g: {scale: 2}}\n"),
+  EXPECT_THAT(section_error("seedframe: 1\ncamera: {distance_m: 1}\nobjects: {g: {scale: 2}}\n"),
               HasSubstr("scene.yaml:3:14: objects.g: the key 'asset' is missing"));
 }
 
@@ -139,7 +139,7 @@ TEST(Distributions, MistakesAreNamedWithTheirPlace) {
           {"{empirical: [nowhere.csv, x]}",
            "scene.yaml:3:37: variables.scene.a.empirical[0]: there "
            "is no file nowhere.csv"},
-          {"{empirical: [[], x]}", "expected a text, found a list of 0"},
+          {"{empirical: [[], x]}", "expected a path, found a list of 0"},
           {"{empirical: {file: a, colunm: b}}", "unknown key (did you mean 'column'?)"},
           {"{sobol: [0]}", "sobol wants [dimension, of], found a list of 1"},
           {"{sobol: [0, 3]}", "sobol wants a distribution, such as {uniform: [0, 1]}"},
@@ -159,33 +159,33 @@ TEST(Distributions, MistakesAreNamedWithTheirPlace) {
 }
 
 TEST(WholeConfig, IsOneDocument) {
-  EXPECT_THAT(error_of("seedframe: 1\ncamera: {distance_m: 1}\n---\nscenes: 5\n"),
+  EXPECT_THAT(section_error("seedframe: 1\ncamera: {distance_m: 1}\n---\nscenes: 5\n"),
               HasSubstr("scene.yaml:4:1: a config is one YAML document, and here a second begins"));
-  EXPECT_EQ(error_of("---\nseedframe: 1\ncamera: {distance_m: 1}\n"), "(no error)");
-  EXPECT_EQ(error_of("seedframe: 1\ncamera: {distance_m: 1}\n...\n"), "(no error)");
+  EXPECT_EQ(section_error("---\nseedframe: 1\ncamera: {distance_m: 1}\n"), "(no error)");
+  EXPECT_EQ(section_error("seedframe: 1\ncamera: {distance_m: 1}\n...\n"), "(no error)");
 }
 
 TEST(WholeConfig, ControlCharactersAreRefusedAndDoNotEndIt) {
   for (const char byte : {'\0', '\x01', '\x04', '\x1b', '\x7f'}) {
     const std::string text = "seedframe: 1\ncamera: {distance_m: 1}\n" + std::string(1, byte) +
                              "\nthis: is not a config\n";
-    EXPECT_THAT(error_of(text), HasSubstr("scene.yaml:3:1: a control character (byte " +
-                                          std::to_string(static_cast<int>(byte)) + ")"));
+    EXPECT_THAT(section_error(text), HasSubstr("scene.yaml:3:1: a control character (byte " +
+                                               std::to_string(static_cast<int>(byte)) + ")"));
   }
-  EXPECT_EQ(error_of("seedframe: 1\r\ncamera:\t{distance_m: 1}\r\n"), "(no error)");
+  EXPECT_EQ(section_error("seedframe: 1\r\ncamera:\t{distance_m: 1}\r\n"), "(no error)");
 }
 
 TEST(WholeConfig, WhatIsNotUtf8IsRefused) {
   for (const char* bytes : {"\xff", "\x80", "\xc3", "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
                             "\xe2\x82", "\xf0\x8f\xbf\xbf"}) {
-    EXPECT_THAT(error_of(std::string("seedframe: 1\ndescription: h\xc3\xa4 ") + bytes + "\n"),
+    EXPECT_THAT(section_error(std::string("seedframe: 1\ndescription: h\xc3\xa4 ") + bytes + "\n"),
                 HasSubstr("scene.yaml:2:17: this is not UTF-8 (byte "))
         << bytes;
   }
-  EXPECT_EQ(
-      error_of("\xEF\xBB\xBFseedframe: 1\ncamera: {distance_m: 1}\ndescription: \"\xe2\x82\xac "
-               "\xf0\x9f\x98\x80\"\n"),
-      "(no error)");
+  EXPECT_EQ(section_error(
+                "\xEF\xBB\xBFseedframe: 1\ncamera: {distance_m: 1}\ndescription: \"\xe2\x82\xac "
+                "\xf0\x9f\x98\x80\"\n"),
+            "(no error)");
 }
 
 TEST(WholeConfig, DeepNestingIsRefused) {
@@ -193,7 +193,7 @@ TEST(WholeConfig, DeepNestingIsRefused) {
     for (const char* open : {"[", "{a: ", "- ", "? "}) {
       std::string text = "seedframe: 1\ncamera: {distance_m: 1}\nx: ";
       for (int i = 0; i < depth; ++i) text += open;
-      EXPECT_THAT(error_of(text + "\n"), HasSubstr("scene.yaml")) << open << depth;
+      EXPECT_THAT(section_error(text + "\n"), HasSubstr("scene.yaml")) << open << depth;
     }
   }
 }

@@ -12,26 +12,26 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* kStart =
+constexpr const char* kPlanStart =
     "seedframe: 1\ncamera: {distance_m: 1}\nobjects: {box: {asset: cube}, tray: {objects: {cup: "
     "{asset: cube}}}}\n";
 
 Result<CampaignConfig> read(const std::string& more) {
-  return read_campaign_config(kStart + more, "scene.yaml");
+  return read_campaign_config(kPlanStart + more, "scene.yaml");
 }
 
-std::string error_of(const std::string& more) {
+std::string plan_error(const std::string& more) {
   const auto config = read(more);
   return config ? "(no error)" : config.error().message;
 }
 
-struct Case {
+struct PlanCase {
   const char* text;
   const char* expected;
 };
 
-void expect_errors(const std::vector<Case>& cases) {
-  for (const Case& c : cases) EXPECT_THAT(error_of(c.text), HasSubstr(c.expected)) << c.text;
+void expect_errors(const std::vector<PlanCase>& cases) {
+  for (const PlanCase& c : cases) EXPECT_THAT(plan_error(c.text), HasSubstr(c.expected)) << c.text;
 }
 
 TEST(SweepConfig, MultipliesTheScenes) {
@@ -91,9 +91,9 @@ TEST(SweepConfig, HasALimit) {
   for (char name = 'a'; name < 'u'; ++name) {
     axes += std::string(axes.empty() ? "" : ", ") + name + ": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]";
   }
-  EXPECT_THAT(error_of("sweep: {values: {" + axes + "}}"),
+  EXPECT_THAT(plan_error("sweep: {values: {" + axes + "}}"),
               HasSubstr("sweep: a sweep may have 1000000 combinations"));
-  EXPECT_THAT(error_of("scenes: 60000000\nsweep: {values: {a: [1, 2]}}"),
+  EXPECT_THAT(plan_error("scenes: 60000000\nsweep: {values: {a: [1, 2]}}"),
               HasSubstr("(× the combinations of the sweep) must not exceed 100000000"));
 }
 
@@ -139,8 +139,8 @@ TEST(ConstraintConfig, MistakesAreNamedWithTheirPlace) {
 TEST(GraphsConfig, MistakesAreNamedWithTheirPlace) {
   expect_errors({
       {"graphs: nowhere.jsonl", "scene.yaml:4:9: graphs: expected a file of JSON lines, found "},
-      {"graphs: [a]", "graphs: expected a text, found a list of 1"},
-      {"graphs: ''", "graphs: expected a text, found ''"},
+      {"graphs: [a]", "graphs: expected a path, found a list of 1"},
+      {"graphs: ''", "graphs: expected a path, found ''"},
       {"graphs: .\nscenes: 3", "scenes: scenes and graphs exclude each other"},
   });
 }

@@ -10,7 +10,7 @@ SEEDFRAME_FAKE in the environment is a JSON object; all keys are optional:
     "<fault>_attempts": 2               the fault stays away after so many attempts; 1 by default
     "die_before_ready": true            ends at once; a number: so do the first N starts (starts_log)
     "hang_before_ready": true
-    "protocol": 1                       the version in "ready"
+    "protocol": 2                       the version in "ready"
     "chatty_log_bytes": 1000            printed for each frame
     "delay_s": 0.1                      for each frame
     "starts_log": "path"                gets one line, the process id, for each start
@@ -22,17 +22,22 @@ import pathlib
 import signal
 import struct
 import sys
+import threading
 import time
 
 FAULTS = {
     "crash": "segmentation fault while rendering",
     "exit": "ends in good order, without an answer",
-    "hang": "never answers",
+    "hang": "never answers, but gives signs of life",
+    "ignore_term": "the same, and SIGTERM does nothing",
+    "freeze": "stops (SIGSTOP)",
+    "out_of_memory": "is killed as the kernel does when memory runs out",
     "garbage": "answers with something else than a message",
     "wrong_frame": "answers about another frame",
     "wrong_attempt": "answers about another attempt",
     "fail": "answers 'failed'",
     "no_file": "says 'done' and writes nothing",
+    "other_frame": "says 'done' after writing the picture of another frame",
     "half_exr": "says 'done' after half a file",
     "nan": "a NaN in the combined pass",
     "wrong_size": "an image one pixel too wide",
@@ -54,8 +59,9 @@ def main():
     if wishes.get("hang_before_ready"):
         hang()
     reader = os.fdopen(option("--read-fd"), "rb", closefd=False)
-    send({"type": "ready", "protocol": wishes.get("protocol", 1), "blender": "3.4.1", "build": "fake",
-          "ocio_config": "", "cpu": "fake"})
+    send({"type": "ready", "protocol": wishes.get("protocol", 3), "blender": "3.4.1", "build": "fake",
+          "ocio_config": "", "kernel": wishes.get("kernel", "avx2"), "embree": "avx2", "reciprocals": "fake", "libc": ""})
+    threading.Thread(target=give_signs_of_life, daemon=True).start()
     for line in reader:
         send(answer(json.loads(line), wishes))
     return 0
@@ -71,7 +77,13 @@ def answer(request, wishes):
         os.kill(os.getpid(), signal.SIGSEGV)
     if fault == "exit":
         os._exit(0)
-    if fault == "hang":
+    if fault == "out_of_memory":
+        os.kill(os.getpid(), signal.SIGKILL)
+    if fault == "ignore_term":
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    if fault == "freeze":
+        os.kill(os.getpid(), signal.SIGSTOP)
+    if fault in ("hang", "ignore_term"):
         hang()
     if fault == "garbage":
         os.write(option("--write-fd"), b"Fra:1 Mem:22.00M | Scene, ViewLayer\n")
@@ -79,7 +91,8 @@ def answer(request, wishes):
     if fault == "fail":
         return {"type": "failed", "frame": frame, "attempt": attempt, "error": "fake: will not render"}
     if fault != "no_file":
-        data = exr_bytes(*draw(request["spec"], fault))
+        frame_id = "0" * 64 if fault == "other_frame" else request["frame_id"]
+        data = exr_bytes(*draw(request["spec"], fault), frame_id)
         pathlib.Path(request["output"]).write_bytes(
             data[:len(data) // 2] if fault == "half_exr" else data)
     return {"type": "done", "frame": frame + (fault == "wrong_frame"),
@@ -137,7 +150,7 @@ def rectangle(matrix, focal_px, width, height):
     return span(row, height), span(column, width), z
 
 
-def exr_bytes(width, height, channels):
+def exr_bytes(width, height, channels, frame_id):
     """An uncompressed scan-line OpenEXR file (openexr.com, "OpenEXR File Layout")."""
     def attribute(name, kind, value):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
@@ -148,7 +161,7 @@ def exr_bytes(width, height, channels):
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
     header = b"".join([
         struct.pack("<ii", 20000630, 2 | 0x400),  # magic; version 2 with names of up to 255 bytes
-        attribute("channels", "chlist", channel_list), attribute("compression", "compression", b"\0"),
+        attribute("Note", "string", frame_id.encode()), attribute("channels", "chlist", channel_list), attribute("compression", "compression", b"\0"),
         attribute("dataWindow", "box2i", window), attribute("displayWindow", "box2i", window),
         attribute("lineOrder", "lineOrder", b"\0"),
         attribute("pixelAspectRatio", "float", struct.pack("<f", 1)),
@@ -189,6 +202,12 @@ def option(name):
 
 def send(message):
     os.write(option("--write-fd"), json.dumps(message).encode() + b"\n")
+
+
+def give_signs_of_life():
+    while True:
+        send({"type": "alive", "memory_bytes": 50_000_000})
+        time.sleep(0.5)
 
 
 def hang():

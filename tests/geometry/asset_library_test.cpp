@@ -313,6 +313,39 @@ TEST_F(Library, FineViewsGetMoreBitsACoordinate) {
   EXPECT_LE(report->description.levels[0].error_m, report->description.levels[0].bound_m);
 }
 
+TEST_F(Library, FilesThatLeadOutOfItAreRefused) {
+  ASSERT_TRUE(import_asset(request("part")));
+  fs::rename(root() / "part", folder_ / "elsewhere");
+  const auto reason = [&] {
+    const auto asset = AssetLibrary::open({root()})->load("part");
+    return asset ? std::string("(no error)") : asset.error().message;
+  };
+  for (const char* name : {"mesh.drc", "asset.json", "thumbnail.png"}) {
+    fs::remove_all(root() / "part");
+    fs::copy(folder_ / "elsewhere", root() / "part");
+    EXPECT_EQ(reason(), "(no error)");
+    fs::remove(root() / "part" / name);
+    fs::create_symlink(folder_ / "elsewhere/asset.json", root() / "part" / name);
+    EXPECT_THAT(reason(), HasSubstr("outside of the folders that may be read")) << name;
+    EXPECT_FALSE(AssetLibrary::open({root()})->folder("part")) << name;
+  }
+  fs::remove_all(root() / "part");
+  fs::create_directory_symlink(folder_ / "elsewhere", root() / "part");
+  EXPECT_THAT(reason(), HasSubstr((folder_ / "elsewhere").string()));
+  fs::remove(root() / "part");
+  fs::rename(folder_ / "elsewhere", root() / "other");
+  fs::create_directory_symlink("other", root() / "part");
+  EXPECT_EQ(reason(), "(no error)") << "it leads to another part of the library";
+}
+
+TEST_F(Library, FilesMayLieInAnotherAllowedFolder) {
+  ASSERT_TRUE(import_asset(request("part")));
+  fs::rename(root() / "part/mesh.drc", folder_ / "shared.drc");
+  fs::create_symlink(folder_ / "shared.drc", root() / "part/mesh.drc");
+  EXPECT_FALSE(AssetLibrary::open({root()})->load("part"));
+  EXPECT_TRUE(AssetLibrary::open({root()}, AllowedFolders({folder_.path()}))->load("part"));
+}
+
 TEST_F(Library, ThreadsShareOneCopy) {
   ASSERT_TRUE(import_asset(request("part")));
   const auto library = AssetLibrary::open({root()});

@@ -14,6 +14,24 @@ namespace {
 
 using ::testing::HasSubstr;
 
+/// Every side of its squares is the same number of quantisation steps.
+Mesh flat_grid(std::uint32_t squares) {
+  Mesh mesh;
+  mesh.slot_names = {"slot0"};
+  const std::uint32_t side = squares + 1;
+  for (std::uint32_t i = 0; i < side * side; ++i) {
+    mesh.positions.push_back({static_cast<float>(i % side), static_cast<float>(i / side), 0.0F});
+  }
+  for (std::uint32_t i = 0; i + side < side * side; ++i) {
+    if (i % side == squares) continue;
+    mesh.triangles.push_back({i, i + 1, i + side});
+    mesh.triangles.push_back({i + 1, i + side + 1, i + side});
+  }
+  mesh.corner_uvs.resize(3 * mesh.triangles.size());
+  mesh.triangle_slots.resize(mesh.triangles.size());
+  return mesh;
+}
+
 struct Tolerance {
   double position = 0.0;
   double uv = 0.0;
@@ -173,6 +191,28 @@ TEST(DracoCodec, RefusesWhatIsNoDracoStream) {
   EXPECT_FALSE(decode_draco("DRACO", "magic alone"));
   EXPECT_FALSE(decode_draco(std::string(4096, '\xff'), "noise"));
   EXPECT_FALSE(decode_draco("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "an OBJ file"));
+}
+
+TEST(DracoCodec, RefusesCountsThatTheStreamCannotHold) {
+  const std::string stream = *encode_draco(example_cube());
+  ASSERT_LT(stream[12], 127);  // both counts take one byte
+  for (const std::size_t count : {12u, 13u}) {
+    std::string bytes = stream;
+    bytes.replace(count, 1, "\xff\xff\xff\xff\x07");
+    const auto read = decode_draco(bytes, "lie.drc");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().kind, ErrorKind::kCorrupt);
+    EXPECT_THAT(read.error().message, HasSubstr("claims more triangles"));
+  }
+}
+
+TEST(DracoCodec, TakesTheMostRegularOfMeshes) {
+  const Mesh mesh = flat_grid(300);
+  const auto stream = encode_draco(mesh);
+  ASSERT_TRUE(stream);
+  const auto read = decode_draco(*stream, "grid.drc");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->triangles.size(), mesh.triangles.size());
 }
 
 }  // namespace

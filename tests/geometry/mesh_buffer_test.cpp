@@ -42,6 +42,11 @@ TEST(MeshBuffer, RefusesEveryOtherLength) {
   EXPECT_FALSE(mesh_from_buffer(bytes + '\0', "long.mesh"));
 }
 
+TEST(MeshBuffer, RefusesNothing) {
+  const std::string header = mesh_buffer(example_cube()).substr(0, 8);
+  EXPECT_FALSE(mesh_from_buffer(header + std::string(16, '\0'), "empty.mesh"));
+}
+
 TEST(MeshBuffer, RefusesDamagedContents) {
   std::string bytes = mesh_buffer(example_cube());
   bytes[7] = '2';

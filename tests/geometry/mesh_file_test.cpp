@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "base/files.h"
 #include "example_files.h"
@@ -95,6 +96,32 @@ TEST_F(MeshFiles, GltfOpensNoFilesOutsideItsFolder) {
   }
   ASSERT_TRUE(write_file(folder_ / "sub/own.bin", gltf_buffer(example_cube())));
   EXPECT_TRUE(read("sub/a.gltf", gltf_json(example_cube(), R"("uri":"own.bin",)")));
+}
+
+TEST_F(MeshFiles, GltfFollowsNoLinksOutOfItsFolderAndWaitsForNoPipe) {
+  std::filesystem::create_directories(folder_ / "sub");
+  ASSERT_TRUE(write_file(folder_ / "secret.bin", gltf_buffer(example_cube())));
+  std::filesystem::create_symlink("../secret.bin", folder_ / "sub/link.bin");
+  std::filesystem::create_symlink("..", folder_ / "sub/up");
+  std::filesystem::create_symlink("/dev/zero", folder_ / "sub/zero.bin");
+  ASSERT_EQ(::mkfifo((folder_ / "sub/pipe.bin").c_str(), 0600), 0);
+  for (const char* uri : {"link.bin", "up/secret.bin", "zero.bin", "pipe.bin"}) {
+    const std::string json = gltf_json(example_cube(), fmt::format(R"("uri":"{}",)", uri));
+    expect_error("sub/a.gltf", json, "is not a file in the folder");
+  }
+}
+
+TEST_F(MeshFiles, DeepJsonIsAnError) {
+  for (const char* bracket : {"[", "{\"a\":"}) {
+    std::string deep;
+    for (int i = 0; i < 2'000'000; ++i) deep += bracket;
+    expect_error("a.gltf", deep, "a.gltf");
+    expect_error("b.gltf", R"({"asset":{"version":)" + deep, "b.gltf");
+  }
+  expect_error(
+      "c.gltf",
+      R"({"asset":{"version":)" + std::string(2'000'000, '[') + std::string(2'000'000, ']') + "}}",
+      "c.gltf");
 }
 
 TEST_F(MeshFiles, GltfLoopsExtensionsAndRangesAreErrors) {

@@ -176,6 +176,29 @@ TEST_F(ColorManagementTest, AMissingConfigAndGarbageAreInputErrors) {
   }
 }
 
+TEST_F(ColorManagementTest, TablesLieInTheFolderOfTheConfig) {
+  EXPECT_TRUE(write_file(folder_ / "table.spi1d", "Version 1\n"));
+  EXPECT_TRUE(make_folders(folder_ / "sub/luts"));
+  const auto error_of = [&](const std::string& search_path, const std::string& transform) {
+    const std::string text = std::string(kConfig) + "    to_reference: " + transform + "\n";
+    EXPECT_TRUE(
+        write_file(folder_ / "sub/config.ocio", "search_path: " + search_path + "\n" + text));
+    const auto loaded = ColorManagement::load(folder_ / "sub/config.ocio");
+    return loaded ? std::string() : loaded.error().message;
+  };
+  const std::string file = "!<FileTransform> {src: table.spi1d}";
+  const std::string outside = "outside of the folders that may be read";
+  EXPECT_THAT(error_of("..", file), HasSubstr(outside));
+  EXPECT_THAT(error_of((folder_ / "sub/..").string(), file), HasSubstr(outside));
+  EXPECT_THAT(error_of("luts", "!<FileTransform> {src: ../../table.spi1d}"), HasSubstr(outside));
+  EXPECT_THAT(error_of("luts", "!<FileTransform> {src: /dev/zero}"), HasSubstr(outside));
+  EXPECT_THAT(error_of("..", "!<GroupTransform> {children: [" + file + "]}"), HasSubstr(outside));
+  std::filesystem::create_symlink("../../table.spi1d", folder_ / "sub/luts/link.spi1d");
+  EXPECT_THAT(error_of("luts", "!<FileTransform> {src: link.spi1d}"), HasSubstr(outside));
+  EXPECT_TRUE(write_file(folder_ / "sub/luts/table.spi1d", "Version 1\n"));
+  EXPECT_EQ(error_of("luts", file), "");
+}
+
 TEST_F(ColorManagementTest, ThreadsShareIt) {
   const ColorManagement colors = load();
   Image<float> image(64, 64, 4);

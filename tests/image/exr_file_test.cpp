@@ -77,7 +77,7 @@ TEST(ExrFile, AFolderThatIsNotThereIsAnError) {
 TEST(ExrFile, AFullDiskIsAnErrorEvenForTheLastBytes) {
   const Status written = write_exr("/dev/full", ramp(2, 2, 1), {"Z"});
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().kind, ErrorKind::kEnvironment);
+  EXPECT_EQ(written.error().kind, ErrorKind::kExhausted);
 }
 
 TEST(ExrFile, AChannelComesBack) {

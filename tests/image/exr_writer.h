@@ -11,6 +11,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 
 namespace seedframe {
 
@@ -24,6 +25,7 @@ struct ExrFile {
   int height = 2;
   int first_column = 0;
   Imf::Compression compression = Imf::ZIP_COMPRESSION;
+  std::string note;  ///< the attribute "Note"; empty: none
   std::map<std::string, ChannelValues> channels;
 
   std::size_t pixels() const {
@@ -42,6 +44,7 @@ struct ExrFile {
     const Imath::Box2i window({first_column, 0}, {first_column + width - 1, height - 1});
     Imf::Header header(window, window);
     header.compression() = compression;
+    if (!note.empty()) header.insert("Note", Imf::StringAttribute(note));
     Imf::FrameBuffer buffer;
     std::map<std::string, std::vector<half>> halves;
     for (const auto& [name, channel] : channels) {

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::Key;
 using testing::UnorderedElementsAre;
 
-constexpr PassExpectation kAllPasses{3, 2, true, true, 10};
+const PassExpectation kAllPasses{3, 2, true, true, 10};
 
 class PassReader : public testing::Test {
  protected:
@@ -133,6 +133,18 @@ TEST_F(PassReader, TwoLayersThatCouldBeThePassAreAnError) {
   file.fill("Other.Combined.R", Imf::HALF, 1.0F);
   EXPECT_THAT(error_of(file), HasSubstr("two channels could be the combined pass: "
                                         "Other.Combined.R and ViewLayer.Combined.R"));
+}
+
+TEST_F(PassReader, AnotherFramesFileIsAnError) {
+  PassExpectation expected = kAllPasses;
+  expected.frame_id = std::string(64, 'a');
+  ExrFile file = blender_exr();
+  EXPECT_THAT(read(file, expected).error().message,
+              HasSubstr("expected the passes of frame aaaaaaaaaaaa, found those of no frame"));
+  file.note = std::string(64, 'b');
+  EXPECT_THAT(read(file, expected).error().message, HasSubstr("found those of bbbbbbbbbbbb"));
+  file.note = expected.frame_id;
+  EXPECT_TRUE(read(file, expected));
 }
 
 TEST_F(PassReader, AnotherSizeIsAnError) {

@@ -13,6 +13,7 @@ using testing::HasSubstr;
 TEST(Message, ARenderRequestIsOneLineOfJson) {
   RenderRequest request;
   request.spec = R"({"version":1})";
+  request.frame_id = "f00";
   request.output = "/out/a \"quoted\"\nname.exr";
   request.meshes["abc"] = "/meshes/abc.mesh";
   request.textures["def"] = "/textures/def.png";
@@ -22,6 +23,7 @@ TEST(Message, ARenderRequestIsOneLineOfJson) {
   EXPECT_EQ(json, (Json{{"type", "render"},
                         {"frame", 42},
                         {"attempt", 2},
+                        {"frame_id", "f00"},
                         {"spec", {{"version", 1}}},
                         {"output", "/out/a \"quoted\"\nname.exr"},
                         {"meshes", {{"abc", "/meshes/abc.mesh"}}},
@@ -29,21 +31,24 @@ TEST(Message, ARenderRequestIsOneLineOfJson) {
 }
 
 TEST(Message, EmptyTablesAreObjects) {
-  const Json json = Json::parse(encode_render_message({0, 1}, {"{}", "/x", {}, {}}));
+  const Json json = Json::parse(encode_render_message({0, 1}, {"{}", "id", "/x", {}, {}}));
   EXPECT_TRUE(json["meshes"].is_object());
   EXPECT_TRUE(json["textures"].is_object());
 }
 
 TEST(Message, ReadsReady) {
   const auto message = parse_worker_message(
-      R"({"type":"ready","protocol":1,"blender":"3.4.1","build":"b","ocio_config":"/c","cpu":"avx2"})");
+      R"({"type":"ready","protocol":1,"blender":"3.4.1","build":"b","ocio_config":"/c","kernel":"avx2","embree":"avx512","reciprocals":"0123","libc":"glibc 2.36"})");
   ASSERT_TRUE(message);
   const auto& ready = std::get<ReadyMessage>(*message);
   EXPECT_EQ(ready.protocol, 1);
   EXPECT_EQ(ready.blender, "3.4.1");
   EXPECT_EQ(ready.build, "b");
   EXPECT_EQ(ready.ocio_config, "/c");
-  EXPECT_EQ(ready.cpu, "avx2");
+  EXPECT_EQ(ready.kernel, "avx2");
+  EXPECT_EQ(ready.embree, "avx512");
+  EXPECT_EQ(ready.reciprocals, "0123");
+  EXPECT_EQ(ready.libc, "glibc 2.36");
 }
 
 TEST(Message, ReadsDone) {
@@ -54,6 +59,12 @@ TEST(Message, ReadsDone) {
   EXPECT_EQ(done.job, (FrameJob{42, 2}));
   EXPECT_EQ(done.build_s, 0.5);
   EXPECT_EQ(done.render_s, 1.0);
+}
+
+TEST(Message, ReadsSignsOfLife) {
+  const auto message = parse_worker_message(R"({"type":"alive","memory_bytes":123})");
+  ASSERT_TRUE(message);
+  EXPECT_EQ(std::get<AliveMessage>(*message).memory_bytes, 123);
 }
 
 TEST(Message, ReadsFailed) {
@@ -68,6 +79,9 @@ TEST(Message, AnythingElseIsAnErrorThatQuotesIt) {
        {"", "Fra:1 Mem:22M", "{", "[]", "1", "null", "{}", R"({"type":"render"})",
         R"({"type":"done","frame":42})", R"({"type":"done","frame":"x","attempt":1})",
         R"({"type":"ready","protocol":"1"})", R"({"type":"failed","frame":1,"attempt":1})",
+        R"({"type":"done","frame":1,"attempt":4294967297,"build_s":0,"render_s":0})",
+        R"({"type":"done","frame":1e300,"attempt":1,"build_s":0,"render_s":0})",
+        R"({"type":"done","frame":1,"attempt":true,"build_s":0,"render_s":0})",
         "\xff\xfe\x00garbage"}) {
     const auto message = parse_worker_message(line);
     ASSERT_FALSE(message) << line;

@@ -24,7 +24,7 @@ inline FrameSpec small_spec(std::int64_t frame) {
   spec.render.height = 12;
   spec.render.samples = 1;
   spec.render.seed = static_cast<std::uint32_t>(frame);
-  spec.camera = {20.0, 0.01, 100.0};
+  spec.camera = {{20.0, 20.0}, {7.5, 5.5}, 0.01, 100.0};
   spec.materials.emplace_back();
   InstanceSpec instance;
   instance.name = "thing/0";
@@ -50,6 +50,7 @@ class RecordingClient : public RenderClient {
     RenderRequest request;
     request.spec = canonical_json(to_json(small_spec(job.frame)));
     request.output = output(job);
+    request.frame_id = fmt::format("{:064}", job.frame);
     return request;
   }
   void started(const FrameJob& job, int worker) override {
@@ -62,11 +63,18 @@ class RecordingClient : public RenderClient {
     EXPECT_GE(timings.total_s, 0.0);
     on_rendered(job);
   }
-  void attempt_failed(const FrameJob& job, const std::string& message, bool final) override {
-    events.push_back(
-        fmt::format("failed {}.{}{}", job.frame, job.attempt, final ? " for good" : ""));
-    messages.push_back(message);
+  void attempt_failed(const FrameJob& job, const AttemptFailure& failure) override {
+    const char* end = failure.consequence == Consequence::kRetry    ? ""
+                      : failure.consequence == Consequence::kFailed ? " for good"
+                                                                    : " into quarantine";
+    events.push_back(fmt::format("{} {}.{}{}",
+                                 failure.failure == Failure::kCrash ? "crashed" : "failed",
+                                 job.frame, job.attempt, end));
+    messages.push_back(failure.message);
+    last_log = failure.log;
+    if (on_failed) on_failed();
   }
+  Status check_system() override { return system; }
   void worker_ready(int, const ReadyMessage& ready) override {
     EXPECT_EQ(ready.build, "fake");
     ++workers_ready;
@@ -86,9 +94,12 @@ class RecordingClient : public RenderClient {
 
   std::function<void(const FrameJob&)> on_rendered;
   std::function<void(const FrameJob&)> on_started;
+  std::function<void()> on_failed;
   std::function<Status(const FrameJob&)> on_request;
   std::vector<std::string> events;
   std::vector<std::string> messages;
+  std::string last_log;
+  Status system;
   int workers_ready = 0;
   int last_worker = -1;
 
@@ -124,7 +135,7 @@ class PoolTest : public testing::Test {
   }
   Result<RunSummary> run(int frames) {
     std::vector<PendingFrame> pending;
-    for (int frame = 0; frame < frames; ++frame) pending.push_back({frame, 0});
+    for (int frame = 0; frame < frames; ++frame) pending.push_back({frame});
     return pool->run(pending);
   }
 

@@ -15,7 +15,7 @@ import cpu_kernel  # noqa: E402
 from bounded_cache import BoundedCache  # noqa: E402
 from protocol import Channel, Done, Failed, ProtocolError, Ready, RenderRequest  # noqa: E402
 
-REQUEST = {"type": "render", "frame": 42, "attempt": 2, "spec": {"version": 1}, "output": "/x.exr",
+REQUEST = {"type": "render", "frame": 42, "attempt": 2, "frame_id": "ab", "spec": {"version": 1}, "output": "/x.exr",
            "meshes": {"a": "/a.mesh"}, "textures": {}}
 
 
@@ -32,7 +32,7 @@ class RenderRequestTest(unittest.TestCase):
         for bad in (b"", b"{", b"[]", b'"render"', b'{"type": "stop"}'):
             with self.assertRaises(ProtocolError, msg=bad):
                 RenderRequest.parse(bad)
-        for key in ("frame", "attempt", "spec", "output", "meshes", "textures"):
+        for key in ("frame", "attempt", "frame_id", "spec", "output", "meshes", "textures"):
             for broken in ({k: v for k, v in REQUEST.items() if k != key}, {**REQUEST, key: None}):
                 with self.assertRaisesRegex(ProtocolError, key):
                     RenderRequest.parse(json.dumps(broken).encode())
@@ -55,31 +55,40 @@ class ChannelTest(unittest.TestCase):
         self.assertEqual(list(self.channel.requests()), [])
 
     def test_sends_one_line_for_a_message(self):
-        self.channel.send(Ready("3.4.1", "hash", "/config.ocio", "avx2"))
+        self.channel.send(Ready("3.4.1", "hash", "/config.ocio", "avx2", "avx512", "0123", "glibc 2.36"))
         self.channel.send(Done(42, 2, 0.5, 1.5))
         self.channel.send(Failed(42, 2, "two\nlines, \udc80 and µ"))
         ready, done, failed = map(json.loads, os.read(self.far_read, 10000).splitlines())
-        self.assertEqual(ready, {"type": "ready", "protocol": 1, "blender": "3.4.1", "build": "hash",
-                                 "ocio_config": "/config.ocio", "cpu": "avx2"})
+        self.assertEqual(ready, {"type": "ready", "protocol": 3, "blender": "3.4.1", "build": "hash",
+                                 "ocio_config": "/config.ocio", "kernel": "avx2", "embree": "avx512",
+                                 "reciprocals": "0123", "libc": "glibc 2.36"})
         self.assertEqual(done, {"type": "done", "frame": 42, "attempt": 2, "build_s": 0.5,
                                 "render_s": 1.5})
         self.assertEqual(failed["error"], "two\nlines, ? and µ")
 
 
+    def test_gives_signs_of_life_while_it_does_something_else(self):
+        self.channel.send_signs_of_life(0.01)
+        for _ in range(3):
+            alive = json.loads(os.read(self.far_read, 10000).splitlines()[0])
+            self.assertEqual(alive["type"], "alive")
+            self.assertGreater(alive["memory_bytes"], 1_000_000)
+
+
 class CpuKernelTest(unittest.TestCase):
-    MODERN = {"sse2", "pni", "ssse3", "sse4_1", "avx", "avx2", "fma", "f16c", "bmi1", "bmi2"}
+    MODERN = cpu_kernel.capabilities_in("\nCPU device capabilities: SSE2 SSE3 SSE41 AVX AVX2\n")
 
     def test_takes_the_best_that_the_cpu_has(self):
         self.assertEqual(cpu_kernel.choose(self.MODERN, {}, (3, 4, 1)), "avx2")
-        self.assertEqual(cpu_kernel.choose(self.MODERN - {"fma"}, {}, (3, 4, 1)), "avx")
-        self.assertEqual(cpu_kernel.choose({"sse2"}, {}, (3, 4, 1)), "sse2")
+        self.assertEqual(cpu_kernel.choose(self.MODERN - {"AVX2"}, {}, (3, 4, 1)), "avx")
+        self.assertEqual(cpu_kernel.choose({"SSE2"}, {}, (3, 4, 1)), "sse2")
 
     def test_forbidding_one_forbids_all_above(self):
         self.assertEqual(cpu_kernel.choose(self.MODERN, {"CYCLES_CPU_NO_AVX2": "1"}, (3, 4, 1)), "avx")
         self.assertEqual(cpu_kernel.choose(self.MODERN, {"CYCLES_CPU_NO_SSE41": ""}, (3, 4, 1)), "sse3")
 
     def test_blender_4_has_fewer_kernels(self):
-        self.assertEqual(cpu_kernel.choose(self.MODERN - {"avx2"}, {}, (4, 2, 0)), "sse41")
+        self.assertEqual(cpu_kernel.choose(self.MODERN - {"AVX2"}, {}, (4, 2, 0)), "sse41")
 
 
 class BoundedCacheTest(unittest.TestCase):
@@ -128,8 +137,8 @@ class FakeBlenderTest(unittest.TestCase):
                 "materials": [{"base_color": [1, 0, 0]}],
                 "instances": [{"id": 3, "materials": [0],
                                "camera_from_object": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1, 0, 0, 0, 1]}]}
-        first = fake_blender.exr_bytes(*fake_blender.draw(spec))
-        self.assertEqual(first, fake_blender.exr_bytes(*fake_blender.draw(spec)))
+        first = fake_blender.exr_bytes(*fake_blender.draw(spec), "id")
+        self.assertEqual(first, fake_blender.exr_bytes(*fake_blender.draw(spec), "id"))
         self.assertEqual(first[:4], b"\x76\x2f\x31\x01")
 
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "pool_fixture.h"
+#include "render/sandbox.h"
 
 namespace seedframe {
 namespace {
@@ -58,7 +59,8 @@ TEST_F(PoolTest, NothingToDoStartsNothing) {
 
 TEST_F(PoolTest, AttemptNumbersGoOnFromEarlierRuns) {
   make_pool();
-  const auto summary = pool->run({{5, 2}, {6, 3}});
+  const auto summary =
+      pool->run({{.frame = 5, .attempts_used = 2}, {.frame = 6, .attempts_used = 3}});
   ASSERT_TRUE(summary);
   EXPECT_THAT(client->events,
               ElementsAre("started 5.3", "rendered 5.3", "started 6.4", "rendered 6.4"));
@@ -105,7 +107,7 @@ TEST_F(PoolTest, WaitsWhenTooManyFramesAreUnjudged) {
   EXPECT_EQ(summary->committed, 8);
 }
 
-TEST_F(PoolTest, ABadVerdictIsRetriedInAFreshWorker) {
+TEST_F(PoolTest, AWorkerThatWroteABadFileIsReplaced) {
   make_pool({{"no_file_frames", {0}}, {"half_exr_frames", {1}}});
   const auto summary = run(3);
   ASSERT_TRUE(summary);
@@ -237,6 +239,41 @@ TEST_F(PoolTest, WorkersInheritNoOtherFile) {
   const std::string text(std::istreambuf_iterator<char>(log), {});
   EXPECT_THAT(text, HasSubstr(" 3 -> socket"));
   EXPECT_THAT(text, Not(HasSubstr(" 77 -> ")));
+}
+
+TEST_F(PoolTest, ASandboxedWorkerWritesOnlyWhereItMayAndHasNoNetwork) {
+  if (const Status works = check_sandbox(); !works) GTEST_SKIP() << works.error().message;
+  const auto script = folder / "curious_blender";
+  std::filesystem::create_directories(folder / "work");
+  std::ofstream(script) << "#!/bin/sh\n"
+                        << "touch " << (folder / "work/inside").string()
+                        << " && echo wrote inside\n"
+                        << "touch " << (folder / "outside").string() << " || echo not outside\n"
+                        << "cat /proc/net/dev | grep -c : \n"
+                        << "echo process $$\nexit 1\n";
+  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  options.blender = script;
+  options.wrapper = sandbox_arguments(folder / "work");
+  make_pool();
+  EXPECT_FALSE(run(1));
+  std::ifstream log(folder / "worker-0.log");
+  const std::string text(std::istreambuf_iterator<char>(log), {});
+  EXPECT_THAT(text, HasSubstr("wrote inside"));
+  EXPECT_THAT(text, HasSubstr("not outside"));
+  EXPECT_THAT(text, HasSubstr("\n1\n")) << "the loopback device only";
+  EXPECT_THAT(text, testing::ContainsRegex("process [0-9]\n")) << "processes of its own";
+  EXPECT_TRUE(std::filesystem::exists(folder / "work/inside"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "outside"));
+}
+
+TEST_F(PoolTest, ASandboxedWorkerRendersAndDiesWithTheOthers) {
+  if (const Status works = check_sandbox(); !works) GTEST_SKIP() << works.error().message;
+  options.wrapper = sandbox_arguments(folder);
+  options.heartbeat_timeout = std::chrono::seconds(2);
+  make_pool({{"crash_frames", {1}}, {"freeze_frames", {2}}});
+  const auto summary = run(4);
+  ASSERT_TRUE(summary) << summary.error().message;
+  EXPECT_EQ(summary->committed, 4);
 }
 
 TEST_F(PoolTest, WorkersDieWithASchedulerThatIsKilled) {

@@ -15,8 +15,8 @@ namespace {
 using ::testing::HasSubstr;
 
 /// A camera at the origin that looks along y, and what is in front of it.
-std::string scene(const std::string& constraint, const std::string& objects,
-                  const std::string& more = "", int max_attempts = 3) {
+std::string with_constraint(const std::string& constraint, const std::string& objects,
+                            const std::string& more = "", int max_attempts = 3) {
   return "seedframe: 1\nseed: 1\nmax_attempts: " + std::to_string(max_attempts) +
          "\nrender: {width: 100, height: 80}\nconstraints: {c: {" + constraint + "}}\nobjects:\n" +
          objects + kCameraAtOrigin + more;
@@ -24,7 +24,7 @@ std::string scene(const std::string& constraint, const std::string& objects,
 
 /// Whether the constraint holds in the only frame.
 bool holds(const std::string& constraint, const std::string& objects) {
-  const std::string error = scene_error(scene(constraint, objects));
+  const std::string error = scene_error(with_constraint(constraint, objects));
   if (error == "(no error)") return true;
   EXPECT_THAT(error, HasSubstr("'c' was not met"));
   return false;
@@ -128,9 +128,9 @@ TEST(Constraint, ABoundOfZeroHoldsOfWhatIsNotThere) {
 }
 
 TEST(Constraint, BoundsMayVary) {
-  const std::string text =
-      scene("type: distance, at_least: bound", cube("a", "[0, 2, 0]") + cube("b", "[0.5, 2, 0]"),
-            "variables: {frame: {bound: {choice: [0.1, 5]}}}\nframes_per_scene: 20\n", 100);
+  const std::string text = with_constraint(
+      "type: distance, at_least: bound", cube("a", "[0, 2, 0]") + cube("b", "[0.5, 2, 0]"),
+      "variables: {frame: {bound: {choice: [0.1, 5]}}}\nframes_per_scene: 20\n", 100);
   for (const ExpandedFrame& frame : all_frames(text)) EXPECT_EQ(frame.graph.at("bound"), 0.1);
 }
 

@@ -47,7 +47,7 @@ Result<SceneExpander> compile(const std::string& text) {
   return SceneExpander::compile(*config, *assets, *materials);
 }
 
-std::string error_of(const std::string& text) {
+std::string expansion_error(const std::string& text) {
   auto expander = compile(text);
   if (!expander) return expander.error().message;
   for (std::int64_t frame = 0; frame < expander->frame_count(); ++frame) {
@@ -282,15 +282,15 @@ TEST(SceneExpander, ImpossibleScenesAreErrorsThatNameTheKey) {
       {"position: [copy_index * 0.1, {normal: [0, 0.1]}, 0]", "count_: 1", "unknown key"},
   };
   for (const Case& c : cases) {
-    EXPECT_THAT(error_of(replaced(kBase, c.from, c.to)), HasSubstr(c.expected)) << c.to;
+    EXPECT_THAT(expansion_error(replaced(kBase, c.from, c.to)), HasSubstr(c.expected)) << c.to;
   }
 }
 
 TEST(SceneExpander, AScatterThatCannotBeSatisfiedEnds) {
   EXPECT_THAT(
-      error_of("seedframe: 1\ncategories: [gear]\n"
-               "objects: {o: {asset: gear, count: 9, scatter: {x: [0, 0.1], y: [0, 0.1]}}}\n"
-               "camera: {distance_m: 1}\n"),
+      expansion_error("seedframe: 1\ncategories: [gear]\n"
+                      "objects: {o: {asset: gear, count: 9, scatter: {x: [0, 0.1], y: [0, 0.1]}}}\n"
+                      "camera: {distance_m: 1}\n"),
       HasSubstr("objects.o.scatter: no free place was found in 1000 attempts"));
 }
 

@@ -33,7 +33,7 @@ Dimension dimension_of(const std::string& text, const Scope& scope = {}) {
   return formula ? formula->type().dimension : Dimension{};
 }
 
-std::string error_of(const std::string& text, const Scope& scope = {}) {
+std::string formula_error(const std::string& text, const Scope& scope = {}) {
   const auto formula = CompiledFormula::compile(text, scope);
   return formula ? "(no error)" : formula.error().message;
 }
@@ -124,21 +124,22 @@ TEST(Formula, UnitsMultiplyAndDivide) {
   EXPECT_DOUBLE_EQ(value_of("3m / 2cm"), 150.0);
   EXPECT_EQ(dimension_of("sqrt(4m * 9m)"), kLength);
   EXPECT_DOUBLE_EQ(value_of("sqrt(4m * 9m)"), 6.0);
-  EXPECT_THAT(error_of("sqrt(4m)"), HasSubstr("sqrt wants a number whose unit is a square"));
+  EXPECT_THAT(formula_error("sqrt(4m)"), HasSubstr("sqrt wants a number whose unit is a square"));
 }
 
 TEST(Formula, UnitsThatDoNotGoTogetherAreRefusedByName) {
-  EXPECT_THAT(error_of("30deg + 2m"),
+  EXPECT_THAT(formula_error("30deg + 2m"),
               HasSubstr("'30deg + 2m': '+' between a number in deg and a number in m"));
-  EXPECT_THAT(error_of("1 - 2m"), HasSubstr("'-' between a number and a number in m"));
-  EXPECT_THAT(error_of("1m < 1m * 1m"), HasSubstr("'<' between a number in m and a number in m^2"));
-  EXPECT_THAT(error_of("max(1m, 2deg)"), HasSubstr("max wants numbers of one unit"));
-  EXPECT_THAT(error_of("exp(1m)"), HasSubstr("exp wants plain numbers"));
-  EXPECT_THAT(error_of("sin(1m)"), HasSubstr("sin wants an angle"));
-  EXPECT_THAT(error_of("1 ? 1m : 1W"), HasSubstr("found a number in m and a number in W"));
-  EXPECT_THAT(error_of("1m ? 1 : 2"), HasSubstr("before '?'"));
-  EXPECT_THAT(error_of("1m && 1"), HasSubstr("'&&' between"));
-  EXPECT_THAT(error_of("!1m"), HasSubstr("'!' wants a plain number, found a number in m"));
+  EXPECT_THAT(formula_error("1 - 2m"), HasSubstr("'-' between a number and a number in m"));
+  EXPECT_THAT(formula_error("1m < 1m * 1m"),
+              HasSubstr("'<' between a number in m and a number in m^2"));
+  EXPECT_THAT(formula_error("max(1m, 2deg)"), HasSubstr("max wants numbers of one unit"));
+  EXPECT_THAT(formula_error("exp(1m)"), HasSubstr("exp wants plain numbers"));
+  EXPECT_THAT(formula_error("sin(1m)"), HasSubstr("sin wants an angle"));
+  EXPECT_THAT(formula_error("1 ? 1m : 1W"), HasSubstr("found a number in m and a number in W"));
+  EXPECT_THAT(formula_error("1m ? 1 : 2"), HasSubstr("before '?'"));
+  EXPECT_THAT(formula_error("1m && 1"), HasSubstr("'&&' between"));
+  EXPECT_THAT(formula_error("!1m"), HasSubstr("'!' wants a plain number, found a number in m"));
 }
 
 TEST(Formula, ZeroGoesWithEveryUnit) {
@@ -147,7 +148,7 @@ TEST(Formula, ZeroGoesWithEveryUnit) {
   EXPECT_EQ(dimension_of("1 ? 0 : 2deg"), kAngle);
   EXPECT_EQ(value_of("2m > 0"), 1.0);
   EXPECT_EQ(dimension_of("[0, 0, 2m]"), kLength);
-  EXPECT_NE(error_of("1 + 2m"), "(no error)");
+  EXPECT_NE(formula_error("1 + 2m"), "(no error)");
 }
 
 TEST(Formula, AHighPowerOfAUnitIsNoPlainNumber) {
@@ -167,9 +168,9 @@ TEST(Formula, PlainAnglesAreRadiansInTrigonometry) {
 }
 
 TEST(Formula, UnknownUnitsAreListed) {
-  EXPECT_THAT(error_of("3ft"), HasSubstr("there is no unit 'ft' (there are: deg, rad, m, cm"));
-  EXPECT_THAT(error_of("2 m x"), HasSubstr("expected an operator, found 'x' (character 5)"));
-  EXPECT_THAT(error_of("0x10"), HasSubstr("no unit 'x10'"));
+  EXPECT_THAT(formula_error("3ft"), HasSubstr("there is no unit 'ft' (there are: deg, rad, m, cm"));
+  EXPECT_THAT(formula_error("2 m x"), HasSubstr("expected an operator, found 'x' (character 5)"));
+  EXPECT_THAT(formula_error("0x10"), HasSubstr("no unit 'x10'"));
 }
 
 TEST(Formula, VectorsHaveMembersAndIndices) {
@@ -179,10 +180,10 @@ TEST(Formula, VectorsHaveMembersAndIndices) {
   EXPECT_EQ(value_of("v[0] - v[2]", scope), -2.0);
   EXPECT_EQ(value_of("[4, 5, 6].g", scope), 5.0);
   EXPECT_EQ(dimension_of("v.x", scope), kLength);
-  EXPECT_THAT(error_of("v.w", scope), HasSubstr("'w' is no component of a vector"));
-  EXPECT_THAT(error_of("v[3]", scope), HasSubstr("'3' is no component"));
-  EXPECT_THAT(error_of("v[x]", scope), HasSubstr("expected 0, 1 or 2 after '['"));
-  EXPECT_THAT(error_of("v.x.y", scope), HasSubstr("only a vector has a component y"));
+  EXPECT_THAT(formula_error("v.w", scope), HasSubstr("'w' is no component of a vector"));
+  EXPECT_THAT(formula_error("v[3]", scope), HasSubstr("'3' is no component"));
+  EXPECT_THAT(formula_error("v[x]", scope), HasSubstr("expected 0, 1 or 2 after '['"));
+  EXPECT_THAT(formula_error("v.x.y", scope), HasSubstr("only a vector has a component y"));
 }
 
 TEST(Formula, VectorsComputeComponentByComponent) {
@@ -191,13 +192,14 @@ TEST(Formula, VectorsComputeComponentByComponent) {
   expect_vector("2 * [1, 2, 3]", {2, 4, 6});
   expect_vector("-[1, 2, 3] / 2", {-0.5, -1, -1.5});
   expect_vector("1 ? [1, 2, 3] : [4, 5, 6]", {1, 2, 3});
-  EXPECT_THAT(error_of("[1, 2, 3] + 1"), HasSubstr("'+' between a vector and a number"));
-  EXPECT_THAT(error_of("1 / [1, 2, 3]"), HasSubstr("a vector cannot divide"));
-  EXPECT_THAT(error_of("[1, 2]"), HasSubstr("a vector has three components, found 2"));
-  EXPECT_THAT(error_of("[]"), HasSubstr("found 0"));
-  EXPECT_THAT(error_of("[1, 2m, 3]"), HasSubstr("numbers of one unit"));
-  EXPECT_THAT(error_of("[[1, 2, 3], 0, 0]"), HasSubstr("numbers of one unit"));
-  EXPECT_THAT(error_of("[1, 2, 3] < [1, 2, 4]"), HasSubstr("'<' between a vector and a vector"));
+  EXPECT_THAT(formula_error("[1, 2, 3] + 1"), HasSubstr("'+' between a vector and a number"));
+  EXPECT_THAT(formula_error("1 / [1, 2, 3]"), HasSubstr("a vector cannot divide"));
+  EXPECT_THAT(formula_error("[1, 2]"), HasSubstr("a vector has three components, found 2"));
+  EXPECT_THAT(formula_error("[]"), HasSubstr("found 0"));
+  EXPECT_THAT(formula_error("[1, 2m, 3]"), HasSubstr("numbers of one unit"));
+  EXPECT_THAT(formula_error("[[1, 2, 3], 0, 0]"), HasSubstr("numbers of one unit"));
+  EXPECT_THAT(formula_error("[1, 2, 3] < [1, 2, 4]"),
+              HasSubstr("'<' between a vector and a vector"));
 }
 
 TEST(Formula, VectorFunctions) {
@@ -211,10 +213,10 @@ TEST(Formula, VectorFunctions) {
   expect_vector("rotate_x([0, 1, 0], 90deg)", {0, 0, 1});
   expect_vector("rotate_y([0, 0, 1], 90deg)", {1, 0, 0});
   expect_vector("rotate_z([0, 1, 5], 180deg)", {0, -1, 5});
-  EXPECT_THAT(error_of("length(3)"), HasSubstr("length wants a vector"));
-  EXPECT_THAT(error_of("dot([1, 2, 3], 1)"), HasSubstr("dot wants two vectors"));
-  EXPECT_THAT(error_of("rotate_x([1, 2, 3], 1m)"), HasSubstr("rotate_x wants a vector and"));
-  EXPECT_THAT(error_of("max([1, 2, 3], 1)"), HasSubstr("max wants numbers of one unit"));
+  EXPECT_THAT(formula_error("length(3)"), HasSubstr("length wants a vector"));
+  EXPECT_THAT(formula_error("dot([1, 2, 3], 1)"), HasSubstr("dot wants two vectors"));
+  EXPECT_THAT(formula_error("rotate_x([1, 2, 3], 1m)"), HasSubstr("rotate_x wants a vector and"));
+  EXPECT_THAT(formula_error("max([1, 2, 3], 1)"), HasSubstr("max wants numbers of one unit"));
 }
 
 TEST(Formula, ColorsAreVectors) {
@@ -222,7 +224,7 @@ TEST(Formula, ColorsAreVectors) {
   expect_vector("hsv(120deg, 1, 1)", {0, 1, 0});
   expect_vector("rgb(0.1, 0.2, 0.3) * 2", {0.2, 0.4, 0.6});
   EXPECT_EQ(vector_of("blackbody(3000)"), vector_of("blackbody(3000K)"));
-  EXPECT_THAT(error_of("blackbody(3m)"), HasSubstr("blackbody wants a temperature"));
+  EXPECT_THAT(formula_error("blackbody(3m)"), HasSubstr("blackbody wants a temperature"));
 }
 
 TEST(Formula, NamesAndTextsCanBeComparedAndNothingElse) {
@@ -237,49 +239,52 @@ TEST(Formula, NamesAndTextsCanBeComparedAndNothingElse) {
   EXPECT_EQ(formula->number(), 3.0);
   EXPECT_EQ(value_of("\"gear\" != kind", scope), 1.0);
   EXPECT_EQ(value_of("'' == 'a'"), 0.0);
-  EXPECT_THAT(error_of("kind + 1", scope), HasSubstr("'kind' is a name: it can only be compared"));
-  EXPECT_THAT(error_of("'gear'"), HasSubstr("a text can only be compared"));
-  EXPECT_THAT(error_of("kind == x", scope), HasSubstr("compared with a text or a name"));
-  EXPECT_THAT(error_of("kind < 'b'", scope), HasSubstr("can only be compared, with == or !="));
-  EXPECT_THAT(error_of("kind == 'gear", scope), HasSubstr("must end with one (character 9)"));
+  EXPECT_THAT(formula_error("kind + 1", scope),
+              HasSubstr("'kind' is a name: it can only be compared"));
+  EXPECT_THAT(formula_error("'gear'"), HasSubstr("a text can only be compared"));
+  EXPECT_THAT(formula_error("kind == x", scope), HasSubstr("compared with a text or a name"));
+  EXPECT_THAT(formula_error("kind < 'b'", scope), HasSubstr("can only be compared, with == or !="));
+  EXPECT_THAT(formula_error("kind == 'gear", scope), HasSubstr("must end with one (character 9)"));
 }
 
 TEST(Formula, UnknownNamesGetASuggestion) {
   const double radius = 1.0;
-  EXPECT_THAT(error_of("2 * raduis", {{"radius", number_symbol(&radius)}}),
+  EXPECT_THAT(formula_error("2 * raduis", {{"radius", number_symbol(&radius)}}),
               HasSubstr("did you mean 'radius'?"));
-  EXPECT_THAT(error_of("sqr(2)"), HasSubstr("did you mean 'sqrt'?"));
-  EXPECT_THAT(error_of("quux"), HasSubstr("'quux' is neither a number, a variable"));
+  EXPECT_THAT(formula_error("sqr(2)"), HasSubstr("did you mean 'sqrt'?"));
+  EXPECT_THAT(formula_error("quux"), HasSubstr("'quux' is neither a number, a variable"));
 }
 
 TEST(Formula, ErrorsNameTheCharacter) {
-  EXPECT_THAT(error_of("1 + * 2"), HasSubstr("expected a value, found '*' (character 5)"));
-  EXPECT_THAT(error_of("1 2"), HasSubstr("expected an operator, found '2' (character 3)"));
-  EXPECT_THAT(error_of("(1"), HasSubstr("expected ')', but the formula ends (character 3)"));
-  EXPECT_THAT(error_of("1 ? 2"), HasSubstr("expected ':', but the formula ends (character 6)"));
-  EXPECT_THAT(error_of("max(1 2)"), HasSubstr("expected ')', found '2' (character 7)"));
-  EXPECT_THAT(error_of("1 +"), HasSubstr("expected a value, but the formula ends (character 4)"));
-  EXPECT_THAT(error_of(""), HasSubstr("but the formula ends (character 1)"));
-  EXPECT_THAT(error_of("1e999"), HasSubstr("too large or too small (character 1)"));
-  EXPECT_THAT(error_of("1, 2"), HasSubstr("one result (character 2)"));
+  EXPECT_THAT(formula_error("1 + * 2"), HasSubstr("expected a value, found '*' (character 5)"));
+  EXPECT_THAT(formula_error("1 2"), HasSubstr("expected an operator, found '2' (character 3)"));
+  EXPECT_THAT(formula_error("(1"), HasSubstr("expected ')', but the formula ends (character 3)"));
+  EXPECT_THAT(formula_error("1 ? 2"),
+              HasSubstr("expected ':', but the formula ends (character 6)"));
+  EXPECT_THAT(formula_error("max(1 2)"), HasSubstr("expected ')', found '2' (character 7)"));
+  EXPECT_THAT(formula_error("1 +"),
+              HasSubstr("expected a value, but the formula ends (character 4)"));
+  EXPECT_THAT(formula_error(""), HasSubstr("but the formula ends (character 1)"));
+  EXPECT_THAT(formula_error("1e999"), HasSubstr("too large or too small (character 1)"));
+  EXPECT_THAT(formula_error("1, 2"), HasSubstr("one result (character 2)"));
 }
 
 TEST(Formula, ACharacterOfSeveralBytesIsNamedWhole) {
-  EXPECT_THAT(error_of("2 × 3"), HasSubstr("'×' has no meaning here (character 3)"));
-  EXPECT_THAT(error_of("2 \xF0\x9F\x98\x80"), HasSubstr("'\xF0\x9F\x98\x80' has no meaning"));
+  EXPECT_THAT(formula_error("2 × 3"), HasSubstr("'×' has no meaning here (character 3)"));
+  EXPECT_THAT(formula_error("2 \xF0\x9F\x98\x80"), HasSubstr("'\xF0\x9F\x98\x80' has no meaning"));
 }
 
 TEST(Formula, RefusesWhatItDoesNotOffer) {
   double x = 1.0;
   const Scope scope = {{"x", number_symbol(&x)}};
-  EXPECT_THAT(error_of("x ^ 2", scope), HasSubstr("pow(x, y)"));
-  EXPECT_THAT(error_of("x = 5", scope), HasSubstr("=="));
+  EXPECT_THAT(formula_error("x ^ 2", scope), HasSubstr("pow(x, y)"));
+  EXPECT_THAT(formula_error("x = 5", scope), HasSubstr("=="));
   EXPECT_DOUBLE_EQ(x, 1.0);
-  EXPECT_THAT(error_of("pow(2)"), HasSubstr("pow wants 2 arguments, found 1"));
-  EXPECT_THAT(error_of("sin()"), HasSubstr("sin wants 1 argument, found 0"));
-  EXPECT_THAT(error_of("max(" + repeated("1,", 64) + "1)"), HasSubstr("found 65"));
-  EXPECT_THAT(error_of("x(1)", scope), HasSubstr("there is no function 'x'"));
-  EXPECT_THAT(error_of("sin + 1"), HasSubstr("'sin' is neither"));
+  EXPECT_THAT(formula_error("pow(2)"), HasSubstr("pow wants 2 arguments, found 1"));
+  EXPECT_THAT(formula_error("sin()"), HasSubstr("sin wants 1 argument, found 0"));
+  EXPECT_THAT(formula_error("max(" + repeated("1,", 64) + "1)"), HasSubstr("found 65"));
+  EXPECT_THAT(formula_error("x(1)", scope), HasSubstr("there is no function 'x'"));
+  EXPECT_THAT(formula_error("sin + 1"), HasSubstr("'sin' is neither"));
 }
 
 TEST(Formula, LengthAndDepthHaveLimits) {
@@ -287,9 +292,9 @@ TEST(Formula, LengthAndDepthHaveLimits) {
   EXPECT_EQ(value_of(repeated("-", 90) + "7"), 7.0);
   EXPECT_EQ(value_of("1" + repeated("+1", 999)), 1000.0);
   EXPECT_EQ(value_of(repeated(" ", 1999) + "7"), 7.0);
-  EXPECT_THAT(error_of(repeated(" ", 2000) + "7"), HasSubstr("2000 characters"));
+  EXPECT_THAT(formula_error(repeated(" ", 2000) + "7"), HasSubstr("2000 characters"));
   for (const char* open : {"(", "[", "-", "!", "max(", "1?", "1?1:", "[1,"}) {
-    EXPECT_THAT(error_of(repeated(open, 150)), HasSubstr("nested too deeply")) << open;
+    EXPECT_THAT(formula_error(repeated(open, 150)), HasSubstr("nested too deeply")) << open;
   }
 }
 

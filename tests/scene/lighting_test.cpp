@@ -14,12 +14,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string scene(const std::string& light, const std::string& more = "") {
+std::string with_light(const std::string& light, const std::string& more = "") {
   return "seedframe: 1\nseed: 2\nlights: {l: {" + light + "}}\n" + kCameraAtOrigin + more;
 }
 
 LightSpec light_of(const std::string& light) {
-  const auto frame = first_frame(scene(light));
+  const auto frame = first_frame(with_light(light));
   EXPECT_FALSE(frame.spec.lights.empty());
   return frame.spec.lights.empty() ? LightSpec{} : frame.spec.lights[0];
 }
@@ -60,16 +60,18 @@ TEST(Lux, OfASunAre683PerWattAndSquareMetre) {
 }
 
 TEST(Lumens, AreRefusedWhereTheyMeanNothing) {
-  EXPECT_THAT(scene_error(scene("lumens: 5, color: [0, 0, 0]")),
+  EXPECT_THAT(scene_error(with_light("lumens: 5, color: [0, 0, 0]")),
               HasSubstr("lights.l.lumens: black light has no lumens"));
-  EXPECT_EQ(scene_error(scene("lumens: 0, color: [0, 0, 0]")), "(no error)");
-  EXPECT_THAT(scene_error(scene("lumens: -1")), HasSubstr("lumens must be at least 0, found -1"));
-  EXPECT_THAT(scene_error(scene("type: sun, lumens: 1")), HasSubstr("unknown key"));
-  EXPECT_THAT(scene_error(scene("lux: 1")), HasSubstr("unknown key"));
-  EXPECT_THAT(scene_error(scene("power: 1, lumens: 1")),
+  EXPECT_EQ(scene_error(with_light("lumens: 0, color: [0, 0, 0]")), "(no error)");
+  EXPECT_THAT(scene_error(with_light("lumens: -1")),
+              HasSubstr("lumens must be at least 0, found -1"));
+  EXPECT_THAT(scene_error(with_light("type: sun, lumens: 1")), HasSubstr("unknown key"));
+  EXPECT_THAT(scene_error(with_light("lux: 1")), HasSubstr("unknown key"));
+  EXPECT_THAT(scene_error(with_light("power: 1, lumens: 1")),
               HasSubstr("power and lumens exclude each other"));
-  EXPECT_THAT(scene_error(scene("lumens: 3W")), HasSubstr("this is in W, but lm is wanted here"));
-  EXPECT_THAT(scene_error(scene("type: spot, lumens: 5, angle_deg: 0")),
+  EXPECT_THAT(scene_error(with_light("lumens: 3W")),
+              HasSubstr("this is in W, but lm is wanted here"));
+  EXPECT_THAT(scene_error(with_light("type: spot, lumens: 5, angle_deg: 0")),
               HasSubstr("lights.l.lumens: this takes more watts than can be computed with"));
 }
 
@@ -77,7 +79,7 @@ TEST(Power, TakesWatts) { EXPECT_EQ(light_of("power: 40W").power, 40.0); }
 
 TEST(LightGrid, LampsHangInRowsAndShineStraightDown) {
   const auto frame = first_frame(
-      scene("power: 1, position: [0, 0, 3], grid: {counts: [3, 2], spacing_m: [2, 4, 0]}"));
+      with_light("power: 1, position: [0, 0, 3], grid: {counts: [3, 2], spacing_m: [2, 4, 0]}"));
   ASSERT_EQ(frame.spec.lights.size(), 6u);
   EXPECT_LT((place_of_light(frame.spec.lights[0]) - Eigen::Vector3d(-2, -2, 3)).norm(), 1e-12);
   EXPECT_LT((place_of_light(frame.spec.lights[5]) - Eigen::Vector3d(2, 2, 3)).norm(), 1e-12);
@@ -87,32 +89,32 @@ TEST(LightGrid, LampsHangInRowsAndShineStraightDown) {
 }
 
 TEST(LightGrid, WithATargetAllShineAtIt) {
-  const auto frame = first_frame(
-      scene("power: 1, position: [0, 0, 3], target: [0, 0, 0], grid: {counts: [2], spacing_m: [8, "
-            "0, 0]}"));
+  const auto frame = first_frame(with_light(
+      "power: 1, position: [0, 0, 3], target: [0, 0, 0], grid: {counts: [2], spacing_m: [8, "
+      "0, 0]}"));
   EXPECT_LT((direction_of_light(frame.spec.lights.at(0)) - Eigen::Vector3d(0.8, 0, -0.6)).norm(),
             1e-12);
 }
 
 TEST(LightGrid, HasBounds) {
-  EXPECT_THAT(scene_error(scene("power: 1, grid: {counts: [33, 32]}")),
+  EXPECT_THAT(scene_error(with_light("power: 1, grid: {counts: [33, 32]}")),
               HasSubstr("lights.l.grid: a grid may have 1024 copies, this has 1056"));
-  EXPECT_THAT(scene_error(scene("power: 1, count: 2, grid: {counts: [3]}")),
+  EXPECT_THAT(scene_error(with_light("power: 1, count: 2, grid: {counts: [3]}")),
               HasSubstr("lights.l.count: count and grid exclude each other"));
 }
 
 TEST(Lights, CopiesDrawForThemselves) {
-  const auto frame = first_frame(scene("count: 3, power: {uniform: [1, 2]}"));
+  const auto frame = first_frame(with_light("count: 3, power: {uniform: [1, 2]}"));
   EXPECT_NE(frame.spec.lights.at(0).power, frame.spec.lights.at(1).power);
   EXPECT_NE(frame.spec.lights.at(1).power, frame.spec.lights.at(2).power);
 }
 
 TEST(Lights, APositionBeyondAllNumbersIsRefused) {
-  EXPECT_THAT(scene_error(scene("power: 1, position: [1e308, 0, 0], target: [-1e308, 0, 0]")),
+  EXPECT_THAT(scene_error(with_light("power: 1, position: [1e308, 0, 0], target: [-1e308, 0, 0]")),
               HasSubstr("lights.l: the position or the target is too large"));
-  EXPECT_THAT(scene_error(scene("power: 1, position: [1e-200, 0, 0], target: [0, 0, 0]")),
+  EXPECT_THAT(scene_error(with_light("power: 1, position: [1e-200, 0, 0], target: [0, 0, 0]")),
               HasSubstr("(no error)"));
-  EXPECT_THAT(scene_error(scene("power: 1, color: {hsv: [0, 0, 1e300]}")),
+  EXPECT_THAT(scene_error(with_light("power: 1, color: {hsv: [0, 0, 1e300]}")),
               HasSubstr("a light has a number that is too large"));
 }
 

@@ -13,17 +13,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr int kScenes = 3000;
+constexpr int kMaterialScenes = 3000;
 
 /// How often each material was taken in many scenes.
 std::map<std::string, double> taken(const std::string& material) {
   std::map<std::string, double> counts;
-  auto expander = expander_of("seedframe: 1\nseed: 9\nscenes: " + std::to_string(kScenes) +
+  auto expander = expander_of("seedframe: 1\nseed: 9\nscenes: " + std::to_string(kMaterialScenes) +
                               "\nobjects: {o: {asset: cube, category: none, material: " + material +
                               "}}\ncamera: {distance_m: 1}\n");
   EXPECT_TRUE(expander) << expander.error().message;
   if (!expander) return counts;
-  for (int scene = 0; scene < kScenes; ++scene) {
+  for (int scene = 0; scene < kMaterialScenes; ++scene) {
     const auto frame = expander->expand(scene, {.id = false, .draws = true});
     EXPECT_TRUE(frame) << frame.error().message;
     if (!frame) return counts;
@@ -38,21 +38,22 @@ TEST(MaterialShare, IsHowOftenARealisticMaterialIsTaken) {
   const auto counts = taken(
       "{realistic_share: 0.3, realistic: [Planks01, Fabric01], parametric: [steel, brass, zinc]}");
   ASSERT_EQ(counts.size(), 5u);
-  EXPECT_GT(chi_squared_p({counts.at("Planks01"), counts.at("Fabric01"), counts.at("steel"),
-                           counts.at("brass"), counts.at("zinc")},
-                          {0.15 * kScenes, 0.15 * kScenes, 0.7 / 3 * kScenes, 0.7 / 3 * kScenes,
-                           0.7 / 3 * kScenes}),
-            kLeastP);
+  EXPECT_GT(
+      chi_squared_p({counts.at("Planks01"), counts.at("Fabric01"), counts.at("steel"),
+                     counts.at("brass"), counts.at("zinc")},
+                    {0.15 * kMaterialScenes, 0.15 * kMaterialScenes, 0.7 / 3 * kMaterialScenes,
+                     0.7 / 3 * kMaterialScenes, 0.7 / 3 * kMaterialScenes}),
+      kLeastP);
 }
 
 TEST(MaterialShare, ZeroAndOneLeaveNothingToTheOthers) {
   const std::string lists = ", realistic: [Planks01, Fabric01], parametric: [steel, brass]}";
   const auto none = taken("{realistic_share: 0" + lists);
   EXPECT_EQ(none.size(), 2u);
-  EXPECT_EQ(none.at("steel") + none.at("brass"), kScenes);
+  EXPECT_EQ(none.at("steel") + none.at("brass"), kMaterialScenes);
   const auto all = taken("{realistic_share: 1" + lists);
   EXPECT_EQ(all.size(), 2u);
-  EXPECT_EQ(all.at("Planks01") + all.at("Fabric01"), kScenes);
+  EXPECT_EQ(all.at("Planks01") + all.at("Fabric01"), kMaterialScenes);
 }
 
 TEST(MaterialShare, AKindThatIsNeverTakenMayBeEmpty) {
@@ -70,7 +71,8 @@ TEST(MaterialShare, WithoutListsItIsTheWholeLibrary) {
   for (const auto& [name, count] : counts) {
     if (library->materials().at(name).textures) realistic += count;
   }
-  EXPECT_GT(chi_squared_p({realistic, kScenes - realistic}, {0.5 * kScenes, 0.5 * kScenes}),
+  EXPECT_GT(chi_squared_p({realistic, kMaterialScenes - realistic},
+                          {0.5 * kMaterialScenes, 0.5 * kMaterialScenes}),
             kLeastP);
 }
 

@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string scene(const std::string& objects, const std::string& more = "") {
+std::string with_objects(const std::string& objects, const std::string& more = "") {
   return "seedframe: 1\nseed: 2\nobjects:\n" + objects + kCameraAtOrigin + more;
 }
 
@@ -31,7 +31,7 @@ std::vector<std::string> names_of(const ExpandedFrame& frame) {
 }
 
 TEST(Groups, PlacesAreRelativeToTheParent) {
-  const auto frame = first_frame(scene(
+  const auto frame = first_frame(with_objects(
       "  tray:\n    position: [1, 2, 3]\n    rotation_deg: [0, 0, 90]\n    scale: 2\n    objects:\n"
       "      cup: {asset: cube, category: none, position: [0.5, 0, 0.25], scale: 3}\n"));
   ASSERT_THAT(names_of(frame), ElementsAre("tray/0/cup/0"));
@@ -40,7 +40,7 @@ TEST(Groups, PlacesAreRelativeToTheParent) {
 }
 
 TEST(Groups, TransformsComposeThroughEveryLevel) {
-  const auto frame = first_frame(scene(R"(
+  const auto frame = first_frame(with_objects(R"(
   a:
     position: [1, 0, 0]
     rotation_deg: [10, 20, 30]
@@ -76,7 +76,7 @@ TEST(Groups, TransformsComposeThroughEveryLevel) {
 }
 
 TEST(Groups, IdsFollowTheOrderOfPlacing) {
-  const auto frame = first_frame(scene(R"(
+  const auto frame = first_frame(with_objects(R"(
   stack:
     count: 2
     objects:
@@ -106,7 +106,7 @@ std::map<std::string, Json> nested_draws(int shelves, int books) {
   std::string text = kNested;
   text.replace(text.find("SHELVES"), 7, std::to_string(shelves));
   text.replace(text.find("BOOKS"), 5, std::to_string(books));
-  return draws_by_name(first_frame(scene(text)));
+  return draws_by_name(first_frame(with_objects(text)));
 }
 
 TEST(Groups, EveryCopyInEveryCopyDrawsForItself) {
@@ -130,7 +130,7 @@ TEST(Groups, DrawsStayWhenOtherCountsChange) {
 }
 
 TEST(Groups, ChildrenKnowTheVariablesOfTheirParents) {
-  const auto frame = first_frame(scene(R"(
+  const auto frame = first_frame(with_objects(R"(
   rod:
     count: 2
     variables: {size: 0.5 * (copy_index + 1)}
@@ -145,26 +145,27 @@ TEST(Groups, ChildrenKnowTheVariablesOfTheirParents) {
 
 TEST(Groups, AGroupWithoutCopiesHasNothing) {
   EXPECT_TRUE(
-      first_frame(scene("  none: {count: 0, objects: {o: {asset: cube, category: none}}}\n"))
+      first_frame(with_objects("  none: {count: 0, objects: {o: {asset: cube, category: none}}}\n"))
           .spec.instances.empty());
-  EXPECT_TRUE(first_frame(scene("  empty: {objects: {}}\n")).spec.instances.empty());
+  EXPECT_TRUE(first_frame(with_objects("  empty: {objects: {}}\n")).spec.instances.empty());
 }
 
 TEST(Groups, HaveLimits) {
-  EXPECT_THAT(
-      scene_error(scene("  g: {objects: {o: {asset: cube, category: none, count: 1025}}}\n")),
-      HasSubstr("a group may hold 1024 copies of an object"));
-  EXPECT_THAT(scene_error(scene("  o: {asset: cube, category: none, count: 32768}\n")),
+  EXPECT_THAT(scene_error(with_objects(
+                  "  g: {objects: {o: {asset: cube, category: none, count: 1025}}}\n")),
+              HasSubstr("a group may hold 1024 copies of an object"));
+  EXPECT_THAT(scene_error(with_objects("  o: {asset: cube, category: none, count: 32768}\n")),
               HasSubstr("a count must be from 0 to 32767, found 32768"));
-  EXPECT_THAT(scene_error(scene("  a: {asset: cube, category: none, count: 32767}\n  b: {asset: "
-                                "cube, category: none}\n")),
-              HasSubstr("a frame can hold at most 32767 objects"));
+  EXPECT_THAT(
+      scene_error(with_objects("  a: {asset: cube, category: none, count: 32767}\n  b: {asset: "
+                               "cube, category: none}\n")),
+      HasSubstr("a frame can hold at most 32767 objects"));
 }
 
 TEST(Grid, CopiesStandInRowsAboutThePosition) {
-  const auto frame = first_frame(
-      scene("  o: {asset: cube, category: none, position: [10, 0, 0], grid: {counts: [3, 2, 2], "
-            "spacing_m: [1, 10, 100]}}\n"));
+  const auto frame = first_frame(with_objects(
+      "  o: {asset: cube, category: none, position: [10, 0, 0], grid: {counts: [3, 2, 2], "
+      "spacing_m: [1, 10, 100]}}\n"));
   ASSERT_EQ(frame.spec.instances.size(), 12u);
   expect_at(frame.spec.instances[0], {9, -5, -50});
   expect_at(frame.spec.instances[1], {10, -5, -50});  // x first
@@ -174,16 +175,16 @@ TEST(Grid, CopiesStandInRowsAboutThePosition) {
 }
 
 TEST(Grid, CountsMayVaryAndShortListsMeanOne) {
-  const auto frame = first_frame(
-      scene("  o: {asset: cube, category: none, grid: {counts: [n], spacing_m: [2, 1, 1]}}\n",
-            "variables: {scene: {n: 1 + 1}}\n"));
+  const auto frame = first_frame(with_objects(
+      "  o: {asset: cube, category: none, grid: {counts: [n], spacing_m: [2, 1, 1]}}\n",
+      "variables: {scene: {n: 1 + 1}}\n"));
   ASSERT_EQ(frame.spec.instances.size(), 2u);
   expect_at(frame.spec.instances[0], {-1, 0, 0});
   expect_at(frame.spec.instances[1], {1, 0, 0});
 }
 
 TEST(Grid, CopiesDrawForThemselvesAndKnowTheirNumber) {
-  const auto frame = first_frame(scene(
+  const auto frame = first_frame(with_objects(
       "  o: {asset: cube, category: none, grid: {counts: [2, 2]}, position: [0, 0, copy_index], "
       "scale: {uniform: [1, 2]}}\n"));
   ASSERT_EQ(frame.spec.instances.size(), 4u);
@@ -194,18 +195,20 @@ TEST(Grid, CopiesDrawForThemselvesAndKnowTheirNumber) {
 
 TEST(Grid, HasBounds) {
   const std::string start = "  o: {asset: cube, category: none, grid: {counts: ";
-  EXPECT_TRUE(first_frame(scene(start + "[0, 5]}}\n")).spec.instances.empty());
-  EXPECT_THAT(scene_error(scene(start + "[200, 200, 2]}}\n")),
+  EXPECT_TRUE(first_frame(with_objects(start + "[0, 5]}}\n")).spec.instances.empty());
+  EXPECT_THAT(scene_error(with_objects(start + "[200, 200, 2]}}\n")),
               HasSubstr("objects.o.grid: a grid may have 32767 copies, this has 80000"));
-  EXPECT_THAT(scene_error(scene(start + "[32767, 32767, 32767]}}\n")), HasSubstr("this has 3518"));
-  EXPECT_THAT(scene_error(scene(start + "[-1]}}\n")), HasSubstr("a count must be from 0 to 32767"));
+  EXPECT_THAT(scene_error(with_objects(start + "[32767, 32767, 32767]}}\n")),
+              HasSubstr("this has 3518"));
+  EXPECT_THAT(scene_error(with_objects(start + "[-1]}}\n")),
+              HasSubstr("a count must be from 0 to 32767"));
 }
 
 TEST(Scale, OneNumberIsForAllAxesAndAVectorForEach) {
   const auto linear = [](const std::string& scale) -> Eigen::Matrix3d {
     return first_frame(
-               scene("  o: {asset: cube, category: none, rotation_deg: [0, 0, 90], scale: " +
-                     scale + "}\n"))
+               with_objects("  o: {asset: cube, category: none, rotation_deg: [0, 0, 90], scale: " +
+                            scale + "}\n"))
         .spec.instances.at(0)
         .camera_from_object.linear();
   };
@@ -214,13 +217,13 @@ TEST(Scale, OneNumberIsForAllAxesAndAVectorForEach) {
   EXPECT_NEAR(three.col(0).norm(), 2.0, 1e-12);
   EXPECT_NEAR(three.col(1).norm(), 3.0, 1e-12);
   EXPECT_NEAR(three.col(2).norm(), 4.0, 1e-12);
-  EXPECT_THAT(scene_error(scene("  o: {asset: cube, category: none, scale: [1, 0, 1]}\n")),
+  EXPECT_THAT(scene_error(with_objects("  o: {asset: cube, category: none, scale: [1, 0, 1]}\n")),
               HasSubstr("objects.o.scale[0]: scale must be above 0, found 0"));
 }
 
 TEST(Scale, OneDrawnNumberIsOneDrawForAllAxes) {
   const auto frame =
-      first_frame(scene("  o: {asset: cube, category: none, scale: {uniform: [1, 2]}}\n"));
+      first_frame(with_objects("  o: {asset: cube, category: none, scale: {uniform: [1, 2]}}\n"));
   const Eigen::Matrix3d linear = frame.spec.instances.at(0).camera_from_object.linear();
   EXPECT_NEAR(linear.col(0).norm(), linear.col(1).norm(), 1e-12);
   EXPECT_NEAR(linear.col(0).norm(), linear.col(2).norm(), 1e-12);
@@ -232,21 +235,22 @@ TEST(Scale, AndPlaceHaveLimits) {
   for (const char* keys : {"scale: 1e20", "scale: 1e-20", "scale: [1e-300, 1, 1]", "scale: 1e308",
                            "position: [1e13, 0, 0]", "position: [1e308, -1e308, 0]"}) {
     const std::string constraint = "constraints: {c: {type: apart, at_least: 1mm}}\n";
-    EXPECT_THAT(scene_error(scene(
+    EXPECT_THAT(scene_error(with_objects(
                     std::string("  o: {asset: cube, category: none, count: 2, ") + keys + "}\n",
                     constraint)),
                 HasSubstr("objects.o: 'o/0' is too large, too small or too far away"))
         << keys;
   }
-  EXPECT_EQ(scene_error(scene("  o: {asset: cube, category: none, scale: 1e-6, position: [1e9, 0, "
-                              "0]}\n")),
-            "(no error)");
+  EXPECT_EQ(
+      scene_error(with_objects("  o: {asset: cube, category: none, scale: 1e-6, position: [1e9, 0, "
+                               "0]}\n")),
+      "(no error)");
 }
 
 TEST(Resting, FollowsTheCurvatureOfTheGround) {
-  const auto frame = first_frame(
-      scene("  o: {asset: cube, category: none, rest_on_ground: true, position: [3, 4, 1]}\n",
-            "ground: {width_m: 20, depth_m: 20, curvature_per_m: -0.02}\n"));
+  const auto frame = first_frame(with_objects(
+      "  o: {asset: cube, category: none, rest_on_ground: true, position: [3, 4, 1]}\n",
+      "ground: {width_m: 20, depth_m: 20, curvature_per_m: -0.02}\n"));
   // At 5 m from the middle the ground is 0.02 · 25 / 2 lower; half the cube's 50 mm stands on it,
   // upright on the slope.
   const Eigen::Vector3d up = Eigen::Vector3d(0.06, 0.08, 1).normalized();
@@ -255,22 +259,22 @@ TEST(Resting, FollowsTheCurvatureOfTheGround) {
 }
 
 TEST(Resting, InAGroupIsOnTheGroupsOwnFloor) {
-  const auto frame =
-      first_frame(scene("  shelf: {position: [3, 4, 7], objects: {o: {asset: cube, category: none, "
-                        "rest_on_ground: true}}}\n",
-                        "ground: {curvature_per_m: 0.5}\n"));
+  const auto frame = first_frame(
+      with_objects("  shelf: {position: [3, 4, 7], objects: {o: {asset: cube, category: none, "
+                   "rest_on_ground: true}}}\n",
+                   "ground: {curvature_per_m: 0.5}\n"));
   expect_at(frame.spec.instances.at(1), {3, 4, 7.025});
 }
 
 TEST(HiddenFrom, GoesIntoTheFrameSpec) {
-  const auto frame = first_frame(
-      scene("  a: {asset: cube, category: none, hidden_from: [camera, shadow]}\n  b: {asset: cube, "
-            "category: none}\n"));
+  const auto frame = first_frame(with_objects(
+      "  a: {asset: cube, category: none, hidden_from: [camera, shadow]}\n  b: {asset: cube, "
+      "category: none}\n"));
   HiddenFrom expected;
   expected.camera = expected.shadow = true;
   EXPECT_EQ(frame.spec.instances.at(0).hidden_from, expected);
   EXPECT_EQ(frame.spec.instances.at(1).hidden_from, HiddenFrom{});
-  EXPECT_THAT(scene_error(scene("  a: {asset: cube, hidden_from: [camrea]}\n")),
+  EXPECT_THAT(scene_error(with_objects("  a: {asset: cube, hidden_from: [camrea]}\n")),
               HasSubstr("unknown kind of ray 'camrea' (did you mean 'camera'?)"));
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr int kScenes = 40;
+constexpr int kRejectionScenes = 40;
 constexpr int kViews = 5;
 
 // Two things that must be 1 m apart, and draws of every other kind around them.
@@ -47,7 +47,7 @@ double x_of_moving(const ExpandedFrame& frame) {
 }
 
 TEST(Rejection, EveryFrameMeetsTheConstraint) {
-  ASSERT_EQ(bound_frames().size(), static_cast<std::size_t>(kScenes * kViews));
+  ASSERT_EQ(bound_frames().size(), static_cast<std::size_t>(kRejectionScenes * kViews));
   for (const ExpandedFrame& frame : bound_frames()) {
     const auto& all = frame.spec.instances;
     EXPECT_GE(
@@ -97,7 +97,7 @@ TEST(Rejection, AttemptsAreCountedAndAreGeometric) {
   for (const ExpandedFrame& frame : bound_frames()) {
     counts[std::min<std::size_t>(frame.attempts, 4) - 1] += 1.0;
   }
-  const double n = kScenes * kViews;
+  const double n = kRejectionScenes * kViews;
   EXPECT_GT(chi_squared_p(counts, {n / 2, n / 4, n / 8, n / 8}), kLeastP);
 }
 

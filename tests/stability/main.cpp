@@ -40,7 +40,7 @@ class Renderer : public RenderClient {
     options.scripts = scripts;
     options.log_path = [this](int) { return folder_ / "worker.log"; };
     options.threads = 2;
-    options.max_attempts = 1;
+    options.attempts = {1, 1};
     const auto& origin = scenes.blender_origin_m;
     options.environment["SEEDFRAME_STABILITY_ORIGIN"] =
         fmt::format("{},{},{}", origin[0], origin[1], origin[2]);
@@ -75,7 +75,9 @@ class Renderer : public RenderClient {
     if (passes) ids_[static_cast<std::size_t>(job.frame)] = std::move(passes->instance_ids);
     pool_->post_verdict(job, passes ? Status() : Status(forward_error(passes)));
   }
-  void attempt_failed(const FrameJob&, const std::string& message, bool) override {
+  Status check_system() override { return {}; }
+  void attempt_failed(const FrameJob&, const AttemptFailure& failure) override {
+    const std::string& message = failure.message;
     failure_ = message;
   }
   void worker_ready(int, const ReadyMessage&) override {}

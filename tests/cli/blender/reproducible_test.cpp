@@ -112,8 +112,12 @@ TEST_F(RealBlenderCampaign, OneWorkerTwoWorkersAndAKilledRunGiveTheSameBytes) {
   EXPECT_EQ(pages.exit_code, 0) << pages.output;
   const Outcome verified = run({"export", "one", "--verify"});
   EXPECT_EQ(verified.exit_code, 0) << verified.errors;
-  EXPECT_EQ(*read_file(folder_ / "two/provenance.json"),
-            *read_file(folder_ / "one/provenance.json"));
+  const auto made_with = [&](const char* campaign) {
+    Json json = *parse_json(*read_file(folder_ / campaign / "provenance.json"), campaign);
+    for (Json& attempt : json.at("attempts")) attempt.erase("threads");
+    return json;
+  };
+  EXPECT_EQ(made_with("two"), made_with("one"));
 
   // No clock time, host name or absolute path in what is given away.
   char host[256] = {};

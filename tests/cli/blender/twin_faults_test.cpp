@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-constexpr const char* kConfig = R"(seedframe: 1
+constexpr const char* kFaulty = R"(seedframe: 1
 name: faulty
 seed: 5
 frames_per_scene: 2
@@ -46,7 +46,7 @@ class RealBlenderFault : public ProgramTest {
     ASSERT_NE(at, std::string::npos) << fault.was;
     text.replace(at, std::string(fault.was).size(), fault.is);
     ASSERT_TRUE(write_file(home / "blender_scripts" / fault.script, text));
-    write("faulty.yaml", kConfig + ("image: {ocio_config: " + kOcioConfig + "}\n"));
+    write("faulty.yaml", kFaulty + ("image: {ocio_config: " + kOcioConfig + "}\n"));
   }
   Outcome submit() {
     return run({"submit", "faulty.yaml", "-o", "c", "--workers", "1", "--max-attempts", "1"},

@@ -57,6 +57,21 @@ TEST_F(RealBlender, PixelsDependOnNeitherHistoryNorThreadsNorWorker) {
   }
 }
 
+TEST_F(RealBlender, APinnedWorkerSaysSoAndAnotherKernelShowsInThePictureOnly) {
+  specs[0] = varied(0);
+  conditions.isa = Isa::kAvx2;
+  ASSERT_TRUE(render({0}, 1));
+  EXPECT_EQ(ready.kernel, "avx2");
+  EXPECT_EQ(ready.embree, "avx2");
+  const auto avx2 = passes[0].pixel_hashes;
+  conditions.isa = Isa::kSse41;
+  ASSERT_TRUE(render({0}, 2));
+  EXPECT_EQ(ready.kernel, "sse41");
+  EXPECT_EQ(ready.embree, "sse4.2");
+  EXPECT_NE(passes[0].pixel_hashes["combined"], avx2.at("combined"));
+  EXPECT_EQ(passes[0].pixel_hashes["index"], avx2.at("index"));
+}
+
 TEST_F(RealBlender, TheSeedIsRenderersSeed) {
   specs[0] = specs[1] = specs[2] = ball();
   specs[1].render.seed = 2;
@@ -96,7 +111,10 @@ TEST_F(RealBlender, SaysWhatItIs) {
   ASSERT_TRUE(info);
   EXPECT_EQ(ready.blender, info->version);
   EXPECT_TRUE(std::filesystem::exists(ready.ocio_config)) << ready.ocio_config;
-  EXPECT_THAT(ready.cpu, testing::AnyOf("avx2", "avx", "sse41", "sse3", "sse2"));
+  EXPECT_THAT(ready.kernel, testing::AnyOf("avx2", "avx", "sse41", "sse3", "sse2"));
+  EXPECT_THAT(ready.embree, testing::AnyOf("avx512", "avx2", "avx", "sse4.2", "sse2"));
+  EXPECT_EQ(ready.reciprocals.size(), 16u);
+  EXPECT_THAT(ready.libc, testing::StartsWith("glibc "));
 }
 
 }  // namespace

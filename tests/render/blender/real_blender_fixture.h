@@ -159,7 +159,10 @@ class RealBlender : public testing::Test, public RenderClient {
     options.log_path = [this](int) { return folder / "worker.log"; };
     options.threads = threads;
     options.frames_per_worker = frames_per_worker;
-    options.max_attempts = 1;
+    options.conditions = conditions;
+    options.preload =
+        std::filesystem::path(SEEDFRAME_PROGRAM).parent_path() / "seedframe_worker_cpu.so";
+    options.attempts = {1, 1};
     pool = std::make_unique<WorkerPool>(options, *this);
     std::vector<PendingFrame> pending;
     for (const std::int64_t frame : frames) pending.push_back({frame, 0});
@@ -208,7 +211,9 @@ class RealBlender : public testing::Test, public RenderClient {
     if (read) passes[job.frame] = std::move(*read);
     pool->post_verdict(job, read ? Status() : Status(forward_error(read)));
   }
-  void attempt_failed(const FrameJob& job, const std::string& message, bool) override {
+  Status check_system() override { return {}; }
+  void attempt_failed(const FrameJob& job, const AttemptFailure& failure) override {
+    const std::string& message = failure.message;
     failures[job.frame] = message;
   }
   void worker_ready(int, const ReadyMessage& message) override { ready = message; }
@@ -221,6 +226,7 @@ class RealBlender : public testing::Test, public RenderClient {
   std::map<std::int64_t, FramePasses> sharp;  ///< of frames with depth of field
   std::map<std::int64_t, std::string> failures;
   int frames_per_worker = 0;
+  WorkerConditions conditions;
   ReadyMessage ready;
   std::unique_ptr<WorkerPool> pool;
 };

@@ -1,0 +1,146 @@
+#include "campaign/input_files.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include "base/canonical_json.h"
+#include "base/sha256.h"
+
+namespace seedframe {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostFiles = 50'000;
+
+fs::path our_program() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error);
+}
+
+bool is_ourselves(const std::string& path) { return path == our_program(); }
+
+void add_file(const fs::path& path, InputStamps& stamps) {
+  struct stat info = {};
+  const bool found = ::stat(path.c_str(), &info) == 0;
+  stamps[path.string()] =
+      found ? fmt::format("{} {}.{:09}", info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec)
+            : "missing";
+}
+
+/// False when there are too many files.
+bool add_folder(const fs::path& folder, InputStamps& stamps) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (stamps.size() >= kMostFiles) return false;
+    if (!entry->is_directory(error)) add_file(entry->path(), stamps);
+  }
+  return true;
+}
+
+Result<InputStamps> stamps_of_submission(const Campaign& campaign) {
+  const Result<std::string> text = campaign.store.meta(kInputsKey);
+  if (!text) return forward_error(text);
+  if (text->empty()) return InputStamps();
+  const std::string what = campaign.files.store().string();
+  const Result<Json> json = parse_json(*text, what);
+  if (!json) return forward_error(json);
+  if (!json->is_object()) return fail(ErrorKind::kCorrupt, "{}: its list of inputs is none", what);
+  InputStamps stamps;
+  for (const auto& [path, stamp] : json->items()) {
+    if (stamp.is_string()) stamps[path] = stamp.get<std::string>();
+  }
+  return stamps;
+}
+
+/// New frame ids by frame, of those that are not what was submitted.
+Result<std::map<std::int64_t, std::string>> changed_frames(const Campaign& campaign,
+                                                           PreparedCampaign& prepared) {
+  const Result<FrameCounts> counts = campaign.store.counts();
+  if (!counts) return forward_error(counts);
+  if (counts->total() != prepared.expander.frame_count()) {
+    return fail(ErrorKind::kInput,
+                "{}: the campaign was submitted with {} frames, its config asks for {} now: submit "
+                "it anew, into another folder",
+                campaign.files.root().string(), counts->total(), prepared.expander.frame_count());
+  }
+  std::map<std::int64_t, std::string> changed;
+  const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
+    Result<ExpandedFrame> expanded = prepared.expander.expand(row.frame);
+    if (!expanded) return forward_error(expanded);
+    if (expanded->id != row.frame_id) changed[row.frame] = std::move(expanded->id);
+    return {};
+  });
+  if (!visited) return forward_error(visited);
+  return changed;
+}
+
+}  // namespace
+
+InputStamps input_stamps(const PreparedCampaign& prepared) {
+  std::error_code error;
+  InputStamps stamps;
+  Json config = {prepared.source.text};
+  for (const Override& change : prepared.source.overrides) {
+    config.push_back(change.path + "=" + change.value);
+  }
+  stamps["campaign.yaml"] = sha256_hex(canonical_json(config));
+  add_file(our_program(), stamps);
+  for (const fs::path& file : prepared.config.files) add_file(fs::absolute(file, error), stamps);
+  for (const auto& [sha256, file] : prepared.expander.image_files()) {
+    add_file(fs::absolute(file, error), stamps);
+  }
+  std::vector<fs::path> folders = {prepared.source.home / "assets",
+                                   prepared.source.home / "materials"};
+  for (const auto* more : {&prepared.config.asset_folders, &prepared.config.material_folders}) {
+    folders.insert(folders.end(), more->begin(), more->end());
+  }
+  for (const fs::path& folder : folders) {
+    if (!add_folder(fs::absolute(folder, error), stamps)) return {};
+  }
+  return stamps;
+}
+
+std::vector<std::string> changed_inputs(const InputStamps& before, const InputStamps& now) {
+  std::vector<std::string> changed;
+  for (const auto& [path, stamp] : now) {
+    const auto found = before.find(path);
+    if (found == before.end() || found->second != stamp) changed.push_back(path);
+  }
+  for (const auto& [path, stamp] : before) {
+    if (!now.contains(path)) changed.push_back(path);
+  }
+  return changed;
+}
+
+Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign& prepared) {
+  const Result<InputStamps> before = stamps_of_submission(campaign);
+  if (!before) return forward_error(before);
+  const InputStamps now = input_stamps(prepared);
+  RenewedFrames renewed;
+  if (!now.empty() && now == *before) return renewed;
+  const auto changed = changed_frames(campaign, prepared);
+  if (!changed) return forward_error(changed);
+  renewed.frames = static_cast<std::int64_t>(changed->size());
+  renewed.inputs = changed_inputs(*before, now);
+  if (!changed->empty() &&
+      std::all_of(renewed.inputs.begin(), renewed.inputs.end(), is_ourselves)) {
+    return fail(ErrorKind::kInput,
+                "{}: no input has changed, but this Seedframe would make {} of its frames "
+                "differently, for example frame {}: go on with the Seedframe (and the libraries) "
+                "that made them, or submit the campaign anew, into another folder",
+                campaign.files.root().string(), changed->size(), changed->begin()->first);
+  }
+  const Status written = campaign.store.write_together(JobStore::Sync::kNow, [&]() -> Status {
+    for (const auto& [frame, id] : *changed) {
+      if (Status done = campaign.store.renew(frame, id); !done) return done;
+    }
+    return campaign.store.set_meta(kInputsKey, canonical_json(Json(now)));
+  });
+  if (!written) return forward_error(written);
+  return renewed;
+}
+
+}  // namespace seedframe

@@ -1,0 +1,33 @@
+// Which files a campaign's frames depend on, and whether they have changed since it was submitted.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "campaign/campaign.h"
+
+namespace seedframe {
+
+/// Every file that frames may depend on, by absolute path, with its size and time of modification
+/// (of the config and its overrides: a hash); also this program. All files in asset and material
+/// folders count. Empty when there are too many to look at.
+using InputStamps = std::map<std::string, std::string>;
+InputStamps input_stamps(const PreparedCampaign& prepared);
+
+/// What of `now` is not in `before` as it is, and the other way round.
+std::vector<std::string> changed_inputs(const InputStamps& before, const InputStamps& now);
+
+struct RenewedFrames {
+  std::int64_t frames = 0;
+  std::vector<std::string> inputs;  ///< that have changed
+};
+
+/// Gives frames that would come out as other ones, since an input has changed, their new identity:
+/// they are to be rendered again. Looks at the stamps first, and expands every frame only when they
+/// differ. kInput errors: another number of frames; frames that would change though no input has,
+/// so that the program itself must have.
+Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign& prepared);
+
+}  // namespace seedframe

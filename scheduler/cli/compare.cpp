@@ -1,0 +1,126 @@
+// seedframe compare: two campaigns, frame by frame, by hash first.
+
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "audit/campaign_comparison.h"
+#include "base/message_text.h"
+#include "cli/exit_code.h"
+#include "cli/tolerance_options.h"
+#include "cli/verb.h"
+
+namespace seedframe {
+namespace {
+
+using Kind = ComparedFrame::Kind;
+
+struct CompareArguments {
+  std::string first;
+  std::string second;
+  std::int64_t most_frames = 100;
+  std::string heat_maps;
+  Tolerance tolerance;
+  bool json = false;
+};
+
+Json comparison_json(const CampaignComparison& comparison) {
+  Json frames = Json::array();
+  for (const ComparedFrame& frame : comparison.frames) {
+    Json each = {{"frame", frame.frame}, {"kind", to_string(frame.kind)}};
+    if (!frame.spec.empty()) each["spec"] = frame.spec;
+    if (!frame.provenance.empty()) each["provenance"] = frame.provenance;
+    if (frame.difference) each["difference"] = to_json(*frame.difference);
+    frames.push_back(std::move(each));
+  }
+  return {{"first_hash", comparison.first_hash},
+          {"second_hash", comparison.second_hash},
+          {"identical", comparison.identical},
+          {"grade", to_string(comparison.grade)},
+          {"frames", frames}};
+}
+
+void print_frame(const ComparedFrame& frame) {
+  fmt::print("frame {}: {}", frame.frame, to_string(frame.kind));
+  if (frame.difference) {
+    const std::string text = describe(*frame.difference);
+    fmt::print(" ({})\n", to_string(frame.difference->grade));
+    if (!text.empty()) fmt::print("  {}\n", text);
+  } else {
+    fmt::print("\n");
+  }
+  for (const std::string& line : frame.spec) fmt::print("  {}\n", printable(line));
+  if (!frame.provenance.empty()) fmt::print("  made with {}\n", printable(frame.provenance));
+}
+
+void print_comparison(const CampaignComparison& comparison) {
+  if (comparison.frames.empty() && !comparison.first_hash.empty()) {
+    fmt::print("{} frames are identical: dataset hash {}\n", comparison.identical,
+               comparison.first_hash);
+    return;
+  }
+  constexpr std::size_t kMostShown = 20;
+  for (std::size_t i = 0; i < std::min(kMostShown, comparison.frames.size()); ++i) {
+    print_frame(comparison.frames[i]);
+  }
+  if (comparison.frames.size() > kMostShown) {
+    fmt::print("and {} frames more: --json lists them\n", comparison.frames.size() - kMostShown);
+  }
+  fmt::print("{} frames are identical", comparison.identical);
+  for (const Kind kind :
+       {Kind::kOtherPixels, Kind::kOtherSpec, Kind::kOnlyInFirst, Kind::kOnlyInSecond}) {
+    if (const auto count = comparison.count(kind); count > 0) {
+      fmt::print(", {} {}", count, to_string(kind));
+    }
+  }
+  fmt::print("\n");
+}
+
+/// A frame that one of them lacks, or that was not looked at, is not reproducible so far.
+ExitCode exit_code_of(const CampaignComparison& comparison) {
+  const bool all_seen =
+      std::all_of(comparison.frames.begin(), comparison.frames.end(),
+                  [](const ComparedFrame& frame) { return frame.difference.has_value(); });
+  return all_seen ? exit_code(comparison.grade) : kExitNotReproducible;
+}
+
+int compare(const CompareArguments& arguments) {
+  const Result<Campaign> first = open_campaign(arguments.first);
+  if (!first) return report(first.error());
+  const Result<Campaign> second = open_campaign(arguments.second);
+  if (!second) return report(second.error());
+  const Result<CampaignComparison> comparison = compare_campaigns(
+      *first, *second, arguments.tolerance, arguments.most_frames, arguments.heat_maps);
+  if (!comparison) return report(comparison.error());
+  if (arguments.json) {
+    fmt::print("{}", readable_json(comparison_json(*comparison)));
+  } else {
+    print_comparison(*comparison);
+  }
+  return exit_code_of(*comparison);
+}
+
+}  // namespace
+
+void add_compare_verb(CLI::App& app, const OnSelected& on_selected) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* verb = app.add_subcommand(
+      "compare",
+      "two campaigns, frame by frame: what differs, how much, and what it was made with");
+  verb->add_option("A", arguments->first, "folder of a campaign")->required();
+  verb->add_option("B", arguments->second, "folder of another one")->required();
+  verb->add_option("--frames", arguments->most_frames,
+                   "most differing frames whose pixels are looked at")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_option("--images", arguments->heat_maps,
+                   "write a picture of each difference into this folder");
+  add_tolerance_options(*verb, arguments->tolerance);
+  verb->add_flag("--json", arguments->json, "print it as JSON");
+  verb->footer("Example: seedframe compare results/parts results/parts_again");
+  verb->callback(
+      [arguments, on_selected] { on_selected([arguments] { return compare(*arguments); }); });
+}
+
+}  // namespace seedframe

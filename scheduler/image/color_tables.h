@@ -1,0 +1,17 @@
+// The files that an OpenColorIO config names.
+#pragma once
+
+#include <filesystem>
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include "base/error.h"
+
+namespace seedframe {
+
+/// Looks at every table that a colour space, a look or a view transform of the config names, before
+/// OpenColorIO opens it: one outside of `folder` is an error (kInput).
+Status check_color_tables(const OCIO_NAMESPACE::Config& config,
+                          const std::filesystem::path& folder);
+
+}  // namespace seedframe

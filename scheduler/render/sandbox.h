@@ -1,0 +1,19 @@
+// Workers that see the disk read-only but for one folder, and no network: by bubblewrap.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace seedframe {
+
+/// The beginning of a command line that starts what follows it in a sandbox: everything read-only
+/// but `output`, its own /dev, /proc and process numbers, no network, and an end when we end.
+std::vector<std::string> sandbox_arguments(const std::filesystem::path& output);
+
+/// Tries it: kEnvironment when bubblewrap is missing, or the system lets nobody make name spaces.
+Status check_sandbox();
+
+}  // namespace seedframe

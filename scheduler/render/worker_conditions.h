@@ -1,0 +1,30 @@
+// What decides over the last bits of a picture beside the frame spec, as far as it can be chosen.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "base/isa.h"
+#include "render/message.h"
+
+namespace seedframe {
+
+struct WorkerConditions {
+  /// What both kernels use, on any CPU that has it; none: the best of the CPU.
+  std::optional<Isa> isa;
+  /// Cycles keeps scenes from frame to frame: pixels then depend on the frames before.
+  bool persistent_data = false;
+};
+
+/// Variables for the worker: which kernels, and the library to be preloaded that says and pins
+/// Embree's (preload/worker_cpu.cpp).
+std::map<std::string, std::string> environment_of(const WorkerConditions& conditions,
+                                                  const std::filesystem::path& preload);
+
+/// Whether a worker is as it was asked to be; kEnvironment: its CPU or its Blender cannot.
+Status check_worker(const WorkerConditions& asked, const ReadyMessage& ready);
+
+}  // namespace seedframe
