@@ -43,6 +43,10 @@ FAULTS = {
     "wrong_size": "an image one pixel too wide",
     "wrong_id": "an index that no instance has",
     "fractional_id": "an index between two instances",
+    # Frames that nothing is wrong with, but which are not the same again:
+    "last_bit": "one value of the combined pass is the next half float",
+    "brighter": "the combined pass is brighter by 0.02",
+    "other_label": "the first pixel of the first instance has no index",
 }
 BACKGROUND_DEPTH = 1e10
 
@@ -119,6 +123,12 @@ def draw(spec, fault=None):
         depth[rows, columns] = z
         normal[rows, columns] = (0, 0, 1)
     combined[0, 0, :3] = (render["seed"] % 1000) / 1000  # so that the seed shows
+    if fault == "last_bit":
+        combined[1, 1, 0] = numpy.nextafter(combined[1, 1, 0].astype("<f2"), numpy.float16(9))
+    if fault == "brighter":
+        combined[..., :3] += 0.02
+    if fault == "other_label" and index.any():
+        index[tuple(numpy.argwhere(index)[0])] = 0
     if fault == "nan":
         combined[height // 2, width // 2] = float("nan")
     if fault == "wrong_id":
