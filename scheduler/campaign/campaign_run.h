@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct RunOptions {
   int threads = 1;                ///< of each worker
   WorkerConditions conditions;
   std::filesystem::path preload;  ///< see environment_of
+  /// Set in the workers' environment on top of all else.
+  std::map<std::string, std::string> environment;
   AttemptLimits attempts;
   std::chrono::milliseconds frame_timeout = std::chrono::seconds(600);
   std::chrono::milliseconds heartbeat_timeout = std::chrono::seconds(120);

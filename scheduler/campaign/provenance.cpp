@@ -85,6 +85,10 @@ Json library_versions() {
       {"sqlite", sqlite3_libversion()}};
 }
 
+std::string texture_name(const std::filesystem::path& file) {
+  return file.parent_path().filename().string() + "/" + file.filename().string();
+}
+
 Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCampaign& prepared,
                                     const std::string& ocio_hash, const RunOptions& options) {
   Json overrides = Json::array();
@@ -93,7 +97,7 @@ Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCa
   }
   Json textures = Json::object();
   for (const auto& [sha256, file] : prepared.expander.image_files()) {
-    textures[file.parent_path().filename().string() + "/" + file.filename().string()] = sha256;
+    textures[texture_name(file)] = sha256;
   }
   Json json = {{"version", kVersion},
                {"config_sha256", sha256_hex(prepared.source.text)},

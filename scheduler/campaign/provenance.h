@@ -16,6 +16,9 @@ namespace seedframe {
 /// What the libraries say of themselves: name to version.
 Json library_versions();
 
+/// The name of a texture in provenance.json: that of its folder and its own.
+std::string texture_name(const std::filesystem::path& file);
+
 class Provenance {
  public:
   /// Starts from what an earlier run wrote, if there is any. `ocio_hash` is empty when there are no

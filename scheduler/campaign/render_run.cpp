@@ -48,6 +48,7 @@ PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) 
   // A killed Blender leaves its temporary folder behind; here it goes with the rest of work/.
   std::error_code ignored;
   pool.environment["TMPDIR"] = fs::absolute(files.work(), ignored).string();
+  for (const auto& [name, value] : options.environment) pool.environment[name] = value;
   return pool;
 }
 

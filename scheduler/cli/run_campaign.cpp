@@ -9,8 +9,7 @@
 #include <thread>
 
 #include "campaign/disk_space.h"
-#include "campaign/label_run.h"
-#include "campaign/render_run.h"
+#include "campaign/make_run.h"
 #include "cli/exit_code.h"
 #include "cli/progress.h"
 
@@ -74,16 +73,6 @@ std::string describe_work(const CampaignConfig& config, std::size_t frames) {
                      render.height, render.samples);
 }
 
-std::unique_ptr<CampaignRun> new_run(Campaign& campaign, PreparedCampaign& prepared,
-                                     const RunSetup& setup, Provenance& provenance,
-                                     RunObserver& observer) {
-  if (!setup.color) {
-    return std::make_unique<LabelRun>(campaign, prepared, provenance, setup.options, observer);
-  }
-  return std::make_unique<RenderRun>(campaign, prepared, *setup.color, provenance, setup.options,
-                                     observer);
-}
-
 Status check_room(const Campaign& campaign, const RunOptions& options, std::size_t frames,
                   const RunArguments& arguments) {
   const Result<std::uint64_t> free = free_bytes(campaign.files.root());
@@ -107,7 +96,8 @@ Result<RunSummary> run_once(Campaign& campaign, PreparedCampaign& prepared, cons
                        setup.color ? setup.color->config_hash() : std::string(), setup.options);
   if (!provenance) return forward_error(provenance);
   if (Status written = provenance->write(); !written) return forward_error(written);
-  const auto run = new_run(campaign, prepared, setup, *provenance, progress);
+  const auto run = make_run(campaign, prepared, setup.color ? &*setup.color : nullptr, *provenance,
+                            setup.options, progress);
   const RunUnderWay under_way(*run);
   return run->run(frames);
 }

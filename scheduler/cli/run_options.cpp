@@ -91,7 +91,7 @@ Result<RunSetup> set_up_rendering(const RunArguments& arguments, const CampaignC
   }
   options.conditions.persistent_data = config.render.persistent_data;
   if (config.determinism.mode == DeterminismConfig::Mode::kPortable) {
-    options.conditions.isa = config.determinism.isa;
+    options.conditions.kernels = kernels_of(config.determinism.isa);
   }
   options.workers = arguments.workers > 0 ? arguments.workers : plan.workers;
   options.threads = arguments.threads > 0   ? arguments.threads

@@ -19,6 +19,7 @@ void add_explain_verb(CLI::App& app, const OnSelected& on_selected);
 void add_export_verb(CLI::App& app, const OnSelected& on_selected);
 void add_check_verb(CLI::App& app, const OnSelected& on_selected);
 void add_asset_verb(CLI::App& app, const OnSelected& on_selected);
+void add_audit_verb(CLI::App& app, const OnSelected& on_selected);
 void add_compare_verb(CLI::App& app, const OnSelected& on_selected);
 void add_doctor_verb(CLI::App& app, const OnSelected& on_selected);
 

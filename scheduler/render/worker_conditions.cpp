@@ -8,21 +8,25 @@
 namespace seedframe {
 namespace {
 
-struct IsaRow {
+struct KernelRow {
   const char* cycles;      ///< name of Cycles' kernel
-  const char* embree;      ///< and of Embree's
+  const char* embree;      ///< and of Embree's, with the same instructions
   const char* next_above;  ///< forbids Cycles all kernels above
 };
 
-/// Cycles tries its kernels from the best on, and skips those that a variable forbids.
-constexpr std::array<IsaRow, 4> kRows = {{{"sse2", "sse2", "CYCLES_CPU_NO_SSE3"},
-                                          {"sse41", "sse4.2", "CYCLES_CPU_NO_AVX"},
-                                          {"avx", "avx", "CYCLES_CPU_NO_AVX2"},
-                                          {"avx2", "avx2", ""}}};
-
-const IsaRow& row_of(Isa isa) { return kRows[static_cast<std::size_t>(isa)]; }
+/// Cycles tries its kernels from the best on, and skips those that a variable forbids. In the order
+/// of Isa.
+constexpr std::array<KernelRow, 4> kRows = {{{"sse2", "sse2", "CYCLES_CPU_NO_SSE3"},
+                                             {"sse41", "sse4.2", "CYCLES_CPU_NO_AVX"},
+                                             {"avx", "avx", "CYCLES_CPU_NO_AVX2"},
+                                             {"avx2", "avx2", ""}}};
 
 }  // namespace
+
+Kernels kernels_of(Isa isa) {
+  const KernelRow& row = kRows[static_cast<std::size_t>(isa)];
+  return {row.cycles, row.embree};
+}
 
 std::map<std::string, std::string> environment_of(const WorkerConditions& conditions,
                                                   const std::filesystem::path& preload) {
@@ -32,30 +36,33 @@ std::map<std::string, std::string> environment_of(const WorkerConditions& condit
   if (!preload.empty()) {
     environment["LD_PRELOAD"] = preload.string() + (alone ? "" : fmt::format(":{}", others));
   }
-  if (conditions.isa) {
-    const IsaRow& row = row_of(*conditions.isa);
-    environment["SEEDFRAME_EMBREE_ISA"] = row.embree;
-    if (*row.next_above != '\0') environment[row.next_above] = "1";
+  if (conditions.kernels) {
+    environment["SEEDFRAME_EMBREE_ISA"] = conditions.kernels->embree;
+    for (const KernelRow& row : kRows) {
+      if (conditions.kernels->cycles == row.cycles && *row.next_above != '\0') {
+        environment[row.next_above] = "1";
+      }
+    }
   }
   return environment;
 }
 
 Status check_worker(const WorkerConditions& asked, const ReadyMessage& ready) {
-  if (!asked.isa) return {};
-  const IsaRow& row = row_of(*asked.isa);
-  if (ready.kernel != row.cycles) {
+  if (!asked.kernels) return {};
+  if (ready.kernel != asked.kernels->cycles) {
     return fail(ErrorKind::kEnvironment,
-                "the config pins Cycles to its kernel {}, and this machine uses {}: the CPU is too "
+                "Cycles was to use its kernel {}, and on this machine it uses {}: the CPU is too "
                 "old, this Blender has no such kernel, or a variable CYCLES_CPU_NO_… forbids it. "
                 "Set determinism.isa to what all machines have; see docs/determinism.md",
-                row.cycles, ready.kernel);
+                asked.kernels->cycles, ready.kernel);
   }
-  if (ready.embree != row.embree) {
+  if (ready.embree != asked.kernels->embree) {
     return fail(ErrorKind::kEnvironment,
-                "the config pins Embree to its kernels {}, and this Blender uses {}: its Embree is "
-                "no library of its own, which could be told so. Use the Blender of Debian's "
-                "package, or determinism: machine",
-                row.embree, ready.embree.empty() ? "others that it does not tell" : ready.embree);
+                "Embree was to use its kernels {}, and this Blender uses {}: its Embree is no "
+                "library of its own, which could be told so. Use the Blender of Debian's package, "
+                "or determinism: machine",
+                asked.kernels->embree,
+                ready.embree.empty() ? "others that it does not tell" : ready.embree);
   }
   return {};
 }

@@ -12,9 +12,19 @@
 
 namespace seedframe {
 
+/// By the names that Cycles and Embree give them.
+struct Kernels {
+  std::string cycles;
+  std::string embree;
+
+  bool operator==(const Kernels&) const = default;
+};
+/// Both with the same instructions.
+Kernels kernels_of(Isa isa);
+
 struct WorkerConditions {
-  /// What both kernels use, on any CPU that has it; none: the best of the CPU.
-  std::optional<Isa> isa;
+  /// On any CPU that has them; none: the best of the CPU.
+  std::optional<Kernels> kernels;
   /// Cycles keeps scenes from frame to frame: pixels then depend on the frames before.
   bool persistent_data = false;
 };

@@ -142,6 +142,11 @@ class JobStore {
   /// Up to `most` frames in this state, in order.
   Result<std::vector<FrameRow>> frames_in(FrameState state, int most) const;
   Result<std::vector<AttemptRow>> attempts(std::int64_t frame) const;
+  /// Frames of the last good attempts that were begun by the same worker before this one, at most
+  /// `most`, oldest first. (Runs number their workers alike: of an earlier run some may be
+  /// another's.)
+  Result<std::vector<std::int64_t>> done_by_worker_before(const AttemptRow& attempt,
+                                                          int most) const;
   /// What attempts were made with: each distinct one, oldest first.
   Result<std::vector<std::string>> provenances() const;
   /// The newest errors and crashes, newest first.

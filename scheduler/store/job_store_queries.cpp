@@ -203,6 +203,19 @@ Result<std::vector<std::string>> JobStore::provenances() const {
   return texts;
 }
 
+Result<std::vector<std::int64_t>> JobStore::done_by_worker_before(const AttemptRow& attempt,
+                                                                  int most) const {
+  Statement select(
+      database_->connection,
+      "SELECT frame FROM attempts WHERE worker = ? AND outcome = 'done' AND started < ? "
+      "ORDER BY started DESC LIMIT ?");
+  select.bind(1, std::int64_t{attempt.worker}).bind(2, attempt.started).bind(3, std::int64_t{most});
+  std::vector<std::int64_t> frames;
+  while (select.step()) frames.insert(frames.begin(), select.integer(0));
+  if (Status done = select.status(); !done) return forward_error(done);
+  return frames;
+}
+
 Result<std::vector<AttemptRow>> JobStore::recent_failures(int most) const {
   const std::string sql =
       std::string(kAttemptColumns) +

@@ -289,7 +289,7 @@ TEST_F(FaultsTest, AWorkerThatCannotKeepThePinEndsTheRunAndChargesNoFrame) {
                                "--set", "determinism={mode: portable, isa: avx}"});
   EXPECT_EQ(outcome.exit_code, 4) << outcome.errors;
   EXPECT_THAT(outcome.errors,
-              HasSubstr("pins Cycles to its kernel avx, and this machine uses avx2"));
+              HasSubstr("Cycles was to use its kernel avx, and on this machine it uses avx2"));
   EXPECT_EQ(status("c").at("pending"), kFrames);
 }
 

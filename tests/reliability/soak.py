@@ -25,7 +25,7 @@ scenes: {frames}
 categories: [gear, hex_nut]
 render: {{width: 64, height: 48, samples: 1}}
 objects:
-  gears: {{asset: gear, count: {{integer: [1, 3]}}, position: [{{uniform: [-0.1, 0.1]}}, {{uniform: [-0.1, 0.1]}}, 0]}}
+  gears: {{asset: gear, count: {{integer: [1, 3]}}, position: [{{uniform: [-0.1, 0.1]}}, {{uniform: [-0.1, 0.1]}}, {{uniform: [0, 0.03]}}]}}
   nut: {{asset: hex_nut, position: [{{uniform: [-0.1, 0.1]}}, 0, 0.05]}}
 camera: {{distance_m: {{uniform: [0.3, 0.5]}}}}
 """
@@ -43,7 +43,7 @@ def main():
         folder = pathlib.Path(folder)
         (folder / "soak.yaml").write_text(CONFIG.format(frames=options.frames), encoding="utf-8")
         begin = time.monotonic()
-        process = subprocess.Popen([str(options.build / "seedframe"), "submit", "soak.yaml", "-o", "c", "--frames-per-worker",
+        process = subprocess.Popen([str(options.build.resolve() / "seedframe"), "submit", "soak.yaml", "-o", "c", "--frames-per-worker",
                                     str(FRAMES_PER_WORKER)], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                                    env={**os.environ, "SEEDFRAME_HOME": str(HOME)}, text=True)
         memory, worker_memory, cpu = watch(process)

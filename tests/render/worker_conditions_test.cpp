@@ -16,7 +16,7 @@ using ::testing::Key;
 using ::testing::Not;
 using ::testing::Pair;
 
-WorkerConditions pinned_to(Isa isa) { return {.isa = isa}; }
+WorkerConditions pinned_to(Isa isa) { return {.kernels = kernels_of(isa)}; }
 
 ReadyMessage worker_with(const std::string& kernel, const std::string& embree) {
   ReadyMessage ready;

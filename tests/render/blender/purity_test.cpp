@@ -59,12 +59,12 @@ TEST_F(RealBlender, PixelsDependOnNeitherHistoryNorThreadsNorWorker) {
 
 TEST_F(RealBlender, APinnedWorkerSaysSoAndAnotherKernelShowsInThePictureOnly) {
   specs[0] = varied(0);
-  conditions.isa = Isa::kAvx2;
+  conditions.kernels = kernels_of(Isa::kAvx2);
   ASSERT_TRUE(render({0}, 1));
   EXPECT_EQ(ready.kernel, "avx2");
   EXPECT_EQ(ready.embree, "avx2");
   const auto avx2 = passes[0].pixel_hashes;
-  conditions.isa = Isa::kSse41;
+  conditions.kernels = kernels_of(Isa::kSse41);
   ASSERT_TRUE(render({0}, 2));
   EXPECT_EQ(ready.kernel, "sse41");
   EXPECT_EQ(ready.embree, "sse4.2");

@@ -1,0 +1,32 @@
+// Whether the files of a campaign are still what was written, without rendering anything.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "campaign/campaign.h"
+
+namespace seedframe {
+
+struct FileCheck {
+  struct Problem {
+    std::int64_t frame = 0;
+    std::string text;
+  };
+  struct Duplicates {
+    std::vector<std::int64_t> frames;  ///< with the same pixels
+    bool same_spec = false;            ///< and the same was asked for
+  };
+  std::int64_t frames = 0;  ///< that are done; all were read
+  std::uint64_t bytes = 0;
+  std::vector<Problem> problems;       ///< in the order of frames
+  std::vector<Duplicates> duplicates;  ///< in the order of their first frames
+};
+
+/// Reads every file of every frame that is done, on all cores, and compares it with its manifest,
+/// and the manifest with the store.
+Result<FileCheck> check_files(const Campaign& campaign);
+
+}  // namespace seedframe

@@ -1,0 +1,144 @@
+#include "audit/rerender.h"
+
+#include <algorithm>
+#include <iterator>
+#include <thread>
+
+#include "base/files.h"
+#include "campaign/make_run.h"
+
+namespace seedframe {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kMostBefore = 8;
+
+/// Other kernels than Cycles takes by itself on any CPU of the last decade.
+constexpr Isa kOtherIsa = Isa::kAvx;
+
+int cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+/// Rows for the store of a campaign of these frames alone.
+Status add_rows(const std::vector<std::int64_t>& frames, PreparedCampaign& prepared,
+                JobStore& store) {
+  auto next = frames.begin();
+  return store.add_frames([&]() -> Result<std::optional<FrameRow>> {
+    if (next == frames.end()) return std::nullopt;
+    Result<ExpandedFrame> expanded = prepared.expander.expand(*next);
+    if (!expanded) return forward_error(expanded);
+    FrameRow row;
+    row.frame = *next++;
+    row.scene = expanded->scene;
+    row.frame_id = std::move(expanded->id);
+    return row;
+  });
+}
+
+}  // namespace
+
+Result<MadeWith> made_with(const JobStore& store, std::int64_t frame) {
+  MadeWith made;
+  const auto attempts = store.attempts(frame);
+  if (!attempts) return forward_error(attempts);
+  const auto attempt =
+      std::find_if(attempts->rbegin(), attempts->rend(), [](const AttemptRow& row) {
+        return row.outcome == AttemptOutcome::kDone && !row.provenance.empty();
+      });
+  if (attempt == attempts->rend()) return made;
+  Result<Json> provenance = parse_json(attempt->provenance, "the job store's provenance");
+  if (!provenance) return forward_error(provenance);
+  made.provenance = std::move(*provenance);
+  made.threads = made.provenance.value("threads", 1);
+  made.persistent_data = made.provenance.value("persistent_data", false);
+  const std::string embree = made.provenance.value("embree", "");
+  if (!embree.empty()) made.kernels = Kernels{made.provenance.value("kernel", ""), embree};
+  auto before = store.done_by_worker_before(*attempt, kMostBefore);
+  if (!before) return forward_error(before);
+  made.before = std::move(*before);
+  return made;
+}
+
+RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
+                const fs::path& temporary) {
+  constexpr int kWorkers = 3;
+  for (const Condition condition : varied) {
+    switch (condition) {
+      case Condition::kThreads:
+        options.threads = options.threads == 1 ? std::max(2, cores()) : 1;
+        break;
+      case Condition::kWorkers:
+        options.workers = options.workers == kWorkers ? kWorkers - 1 : kWorkers;
+        break;
+      case Condition::kFreshWorker:
+        options.frames_per_worker = 1;
+        break;
+      case Condition::kTmpdir:
+        options.environment["TMPDIR"] = temporary.string();
+        break;
+      case Condition::kLocale:
+        options.environment["LC_ALL"] = "de_DE.UTF-8";
+        options.environment["LANGUAGE"] = "de";
+        break;
+      case Condition::kTimezone:
+        options.environment["TZ"] = "Pacific/Chatham";
+        break;
+      case Condition::kIsa:
+        if (portable) {
+          options.environment["GLIBC_TUNABLES"] =
+              "glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX2,-FMA,-AVX";
+        } else {
+          options.conditions.kernels = kernels_of(kOtherIsa);
+        }
+        break;
+      case Condition::kOrder:    // of the frames, and
+      case Condition::kHistory:  // which come first: whoever renders says
+        break;
+    }
+  }
+  return options;
+}
+
+std::vector<std::int64_t> arrange(std::vector<std::int64_t> frames, const Conditions& varied,
+                                  const std::vector<std::int64_t>& companions, int workers) {
+  constexpr std::size_t kBeforePerWorker = 2;
+  const auto at_once = static_cast<std::size_t>(workers);
+  if (varied.contains(Condition::kOrder)) std::reverse(frames.begin(), frames.end());
+  std::vector<std::int64_t> others;
+  std::copy_if(companions.begin(), companions.end(), std::back_inserter(others),
+               [&](std::int64_t frame) {
+                 return std::find(frames.begin(), frames.end(), frame) == frames.end();
+               });
+  if (varied.contains(Condition::kHistory)) {
+    others.resize(std::min(others.size(), kBeforePerWorker * at_once));
+    frames.insert(frames.begin(), others.begin(), others.end());
+  } else if (varied.contains(Condition::kWorkers) && frames.size() < at_once) {
+    others.resize(std::min(others.size(), at_once - frames.size()));
+    frames.insert(frames.end(), others.begin(), others.end());
+  }
+  return frames;
+}
+
+Result<Campaign> Rerenderer::render(const std::vector<std::int64_t>& frames,
+                                    const RunOptions& options, const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  if (Status made = make_folders(folder); !made) return forward_error(made);
+  const CampaignFiles files(folder);
+  Result<JobStore> store = JobStore::create(files.store());
+  if (!store) return forward_error(store);
+  if (Status added = add_rows(frames, prepared_, *store); !added) return forward_error(added);
+  Campaign campaign{files, std::move(*store)};
+  if (Status begun = begin_run(campaign); !begun) return forward_error(begun);
+  Result<Provenance> provenance = Provenance::load(
+      files, prepared_, color_ != nullptr ? color_->config_hash() : std::string(), options);
+  if (!provenance) return forward_error(provenance);
+  std::vector<PendingFrame> pending;
+  pending.reserve(frames.size());
+  for (const std::int64_t frame : frames) pending.push_back({frame, 0, 0});
+  const auto run = make_run(campaign, prepared_, color_, *provenance, options, observer_);
+  const Result<RunSummary> summary = run->run(pending);
+  if (!summary) return forward_error(summary);
+  return campaign;
+}
+
+}  // namespace seedframe

@@ -1,0 +1,62 @@
+// Frames of a campaign rendered once more, in conditions that are chosen.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit/condition.h"
+#include "base/canonical_json.h"
+#include "base/error.h"
+#include "campaign/campaign.h"
+#include "campaign/campaign_run.h"
+#include "image/color_management.h"
+
+namespace seedframe {
+
+/// How a frame came to be, as far as the job store knows.
+struct MadeWith {
+  Json provenance = Json::object();  ///< of its attempt
+  int threads = 1;
+  std::optional<Kernels> kernels;
+  bool persistent_data = false;
+  std::vector<std::int64_t> before;  ///< that its worker had rendered, oldest first; the last few
+};
+Result<MadeWith> made_with(const JobStore& store, std::int64_t frame);
+
+/// `options` with conditions varied, each as condition.h says. `portable`: the kernels are pinned
+/// and stay so, and kIsa hides instructions from the C library instead. `temporary` is a folder.
+RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
+                const std::filesystem::path& temporary);
+
+/// A folder for temporary files as no other is named, below an audit's.
+inline constexpr const char* kElsewhere = "elsewhere für später";
+
+/// The order in which `frames` are rendered, and what else is: with kHistory some companions before
+/// them for each worker, with kOrder the last frame first, and with kWorkers companions beside them
+/// if there are fewer frames than workers.
+std::vector<std::int64_t> arrange(std::vector<std::int64_t> frames, const Conditions& varied,
+                                  const std::vector<std::int64_t>& companions, int workers);
+
+/// Renders frames anew, finished as those of the campaign; which is only read.
+class Rerenderer {
+ public:
+  /// `color` is null when labels come from geometry. All must outlive it.
+  Rerenderer(PreparedCampaign& prepared, const ColorManagement* color, RunObserver& observer)
+      : prepared_(prepared), color_(color), observer_(observer) {}
+
+  /// In this order, into a folder that becomes a campaign of these frames alone. What was there is
+  /// removed. A frame that failed is no error: its row says why.
+  Result<Campaign> render(const std::vector<std::int64_t>& frames, const RunOptions& options,
+                          const std::filesystem::path& folder);
+
+ private:
+  PreparedCampaign& prepared_;
+  const ColorManagement* color_;
+  RunObserver& observer_;
+};
+
+}  // namespace seedframe

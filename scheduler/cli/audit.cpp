@@ -1,0 +1,199 @@
+// seedframe audit: would this campaign come out as it did?
+
+#include "audit/audit.h"
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "audit/audit_report.h"
+#include "base/files.h"
+#include "base/message_text.h"
+#include "cli/allow_option.h"
+#include "cli/campaign_dataset.h"
+#include "cli/exit_code.h"
+#include "cli/home.h"
+#include "cli/progress.h"
+#include "cli/run_options.h"
+#include "cli/tolerance_options.h"
+#include "cli/verb.h"
+#include "export/export_index.h"
+#include "export/export_run.h"
+#include "export/verify.h"
+
+namespace seedframe {
+namespace {
+
+struct AuditArguments {
+  std::string folder;
+  std::string output;
+  std::string vary;
+  std::vector<std::string> allowed;
+  AuditOptions options;
+  RunArguments run;
+  bool json = false;
+};
+
+/// A folder that an audit may empty: a new one, an empty one, or an older audit.
+Status take_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  const bool is_new = !std::filesystem::exists(folder, error);
+  const bool is_audit = std::filesystem::exists(folder / "report.json", error);
+  if (!is_new && !is_audit && !std::filesystem::is_empty(folder, error)) {
+    return fail(ErrorKind::kInput, "{} is neither empty nor an audit: give another folder with -o",
+                folder.string());
+  }
+  std::filesystem::remove_all(folder, error);
+  if (Status made = make_folders(folder); !made) return made;
+  return write_file(folder / "report.json", "{}\n");  // an audit that did not end
+}
+
+Result<Conditions> conditions_to_vary(const AuditArguments& arguments,
+                                      const PreparedCampaign& prepared) {
+  if (!arguments.vary.empty()) return parse_conditions(arguments.vary);
+  Conditions conditions = usual_conditions();
+  if (prepared.config.determinism.mode == DeterminismConfig::Mode::kPortable) {
+    conditions.insert(Condition::kIsa);
+  }
+  return conditions;
+}
+
+Result<std::vector<AuditedExport>> audit_exports(const Campaign& campaign,
+                                                 const PreparedCampaign& prepared) {
+  std::vector<AuditedExport> exports;
+  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const auto dataset = campaign_dataset(campaign, prepared);
+  if (!dataset) return forward_error(dataset);
+  for (const FormatEntry& format : export_formats()) {
+    const auto folder = campaign.files.exports() / format.name;
+    std::error_code error;
+    if (!std::filesystem::exists(folder / kMarkerFile, error)) continue;
+    AuditedExport& each = exports.emplace_back();
+    each.format = format.name;
+    const Result<VerifySummary> summary = verify_export(dataset->dataset, folder, threads);
+    if (summary) {
+      each.frames = summary->frames;
+      each.differences = summary->differences;
+      each.first_differences = summary->first_differences;
+    } else {
+      each.differences = 1;
+      each.first_differences = {summary.error().message};
+    }
+  }
+  return exports;
+}
+
+bool is_good(const AuditedExport& each) { return each.first_differences.empty(); }
+
+/// Files and exports that are not as they were written outweigh how a frame comes out today.
+ExitCode exit_code_of(const Audit& audit, const std::vector<AuditedExport>& exports) {
+  const bool whole =
+      audit.files.problems.empty() && std::all_of(exports.begin(), exports.end(), is_good);
+  return whole ? exit_code(audit.grade()) : kExitCorrupt;
+}
+
+Status render(Auditor& auditor, bool quiet) {
+  {
+    Progress progress(auditor.renderings(), 0, quiet || auditor.renderings() == 0);
+    if (Status rendered = auditor.render(progress); !rendered) return rendered;
+  }
+  const std::int64_t unexplained = auditor.unexplained();
+  if (unexplained > 0 && !quiet) {
+    std::fprintf(stderr, "%lld frames differ: looking for the causes\n",
+                 static_cast<long long>(unexplained));
+  }
+  Progress silent(0, 0, /*quiet=*/true);
+  return auditor.explain(silent);
+}
+
+int audit(AuditArguments& arguments) {
+  const Result<Campaign> campaign = open_campaign(arguments.folder);
+  if (!campaign) return report(campaign.error());
+  Result<PreparedCampaign> prepared = prepare_again(*campaign, seedframe_home(), arguments.allowed);
+  if (!prepared) return report(prepared.error());
+  const Result<Conditions> vary = conditions_to_vary(arguments, *prepared);
+  if (!vary) return report(vary.error());
+  AuditOptions& options = arguments.options;
+  options.vary = *vary;
+  options.folder = arguments.output.empty() ? campaign->files.root() / "audit"
+                                            : std::filesystem::path(arguments.output);
+  const bool renders =
+      options.sample.frames > 0 || options.sample.share > 0.0 || !options.sample.only.empty();
+  Result<RunSetup> setup = RunSetup{};
+  if (renders) {
+    setup = set_up_run(arguments.run, prepared->config, prepared->expander.frame_count());
+    if (!setup) return report(setup.error());
+  }
+  if (Status taken = take_folder(options.folder); !taken) return report(taken.error());
+  Auditor auditor(*campaign, *prepared, setup->color ? &*setup->color : nullptr, setup->options,
+                  options);
+  if (Status looked = auditor.look(); !looked) return report(looked.error());
+  const auto exports = audit_exports(*campaign, *prepared);
+  if (!exports) return report(exports.error());
+  if (Status rendered = render(auditor, arguments.run.quiet); !rendered) {
+    return report(rendered.error());
+  }
+  const Audit& result = auditor.result();
+  const std::string json = readable_json(to_json(result, *exports));
+  const auto folder = options.folder;
+  for (const auto& [name, text] :
+       {std::pair("report.md",
+                  audit_markdown(campaign->files.root().filename().string(), result, *exports)),
+        std::pair("report.json", json)}) {
+    if (Status written = write_file_atomically(folder / name, text); !written) {
+      return report(written.error());
+    }
+  }
+  if (arguments.json) {
+    fmt::print("{}", json);
+  } else {
+    fmt::print("{}{} has the report\n", audit_summary(result, *exports), folder.string());
+  }
+  return exit_code_of(result, *exports);
+}
+
+}  // namespace
+
+void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
+  auto arguments = std::make_shared<AuditArguments>();
+  AuditOptions& options = arguments->options;
+  CLI::App* verb = app.add_subcommand("audit",
+                                      "would this campaign come out as it did? Reads all its "
+                                      "files, renders a sample again in other "
+                                      "conditions, and finds the cause of what differs");
+  verb->add_option("DIR", arguments->folder, "folder of the campaign")->required();
+  verb->add_option("--frames", options.sample.frames,
+                   "how many frames to render again; 0: only read files")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_option("--share", options.sample.share, "or which share of the frames, 0 to 1")
+      ->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--frame", options.sample.only, "render just this frame again")
+      ->allow_extra_args(false)
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--sample-seed", options.sample.seed, "another one draws other frames")
+      ->capture_default_str();
+  verb->add_option("--vary", arguments->vary,
+                   "conditions: threads, workers, order, fresh-worker, history, tmpdir, locale, "
+                   "timezone, isa; all or none (default: all that the campaign's mode covers)");
+  verb->add_option("--causes", options.most_causes,
+                   "most frames whose cause is looked for by more renderings")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_option("-o,--output", arguments->output,
+                   "folder for the report (default: audit/ in the campaign's)");
+  add_tolerance_options(*verb, options.tolerance);
+  verb->add_option("--blender", arguments->run.blender,
+                   "Blender to render with: a path, or a name in PATH")
+      ->capture_default_str();
+  add_allow_option(*verb, arguments->allowed);
+  verb->add_flag("--quiet", arguments->run.quiet, "no progress");
+  verb->add_flag("--json", arguments->json, "print report.json instead of a summary");
+  verb->footer("Example: seedframe audit results/parts --frames 20");
+  verb->callback(
+      [arguments, on_selected] { on_selected([arguments] { return audit(*arguments); }); });
+}
+
+}  // namespace seedframe
