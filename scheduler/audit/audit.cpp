@@ -81,6 +81,9 @@ Status Auditor::look() {
   auto companions = companions_of(campaign_.store);
   if (!companions) return forward_error(companions);
   companions_ = std::move(*companions);
+  const Result<MadeWith> made = made_with(campaign_.store, audit_.frames.front().frame);
+  if (!made) return forward_error(made);
+  threads_ = made->threads;
   return {};
 }
 
@@ -100,17 +103,22 @@ std::vector<Conditions> Auditor::rounds() const {
   return rounds;
 }
 
-std::vector<std::int64_t> Auditor::frames_of(const Conditions& varied) const {
+RunOptions Auditor::options_of(const Conditions& varied) const {
+  RunOptions options = run_;
+  options.threads = threads_;
+  return vary(std::move(options), varied, portable_, options_.folder / kElsewhere);
+}
+
+Arrangement Auditor::arrangement_of(const Conditions& varied) const {
   std::vector<std::int64_t> frames;
   frames.reserve(audit_.frames.size());
   for (const AuditedFrame& frame : audit_.frames) frames.push_back(frame.frame);
-  return arrange(std::move(frames), varied, companions_,
-                 vary(run_, varied, portable_, options_.folder).workers);
+  return arrange(std::move(frames), varied, companions_, options_of(varied).workers);
 }
 
 std::int64_t Auditor::renderings() const {
   std::size_t count = 0;
-  for (const Conditions& round : audit_.rounds) count += frames_of(round).size();
+  for (const Conditions& round : audit_.rounds) count += arrangement_of(round).frames.size();
   return static_cast<std::int64_t>(count);
 }
 
@@ -129,7 +137,7 @@ Status Auditor::compare_inputs(AuditedFrame& frame) {
   }
   frame.grade = Grade::kNotReproducible;
   if (frame.cause.kind == Cause::Kind::kNone) {
-    frame.cause = cause_of_inputs(campaign_.files, prepared_, frame.inputs);
+    frame.cause = cause_of_inputs(campaign_, prepared_, frame.inputs);
   }
   return {};
 }
@@ -144,9 +152,9 @@ Status Auditor::render(RunObserver& observer) {
 }
 
 Status Auditor::render_round(const Conditions& varied, std::size_t number, Rerenderer& rerenderer) {
-  const RunOptions options = vary(run_, varied, portable_, options_.folder / kElsewhere);
-  const Result<Campaign> rendered = rerenderer.render(
-      frames_of(varied), options, options_.folder / fmt::format("round-{}", number));
+  const Result<Campaign> rendered =
+      rerenderer.render(arrangement_of(varied), options_of(varied),
+                        options_.folder / fmt::format("round-{}", number));
   if (!rendered) return forward_error(rendered);
   for (AuditedFrame& frame : audit_.frames) {
     const Grade before = frame.grade;

@@ -75,8 +75,9 @@ class Auditor {
 
  private:
   std::vector<Conditions> rounds() const;
-  /// What is rendered in a round, in order.
-  std::vector<std::int64_t> frames_of(const Conditions& varied) const;
+  /// How a round is rendered, and what in it.
+  RunOptions options_of(const Conditions& varied) const;
+  Arrangement arrangement_of(const Conditions& varied) const;
   Status compare_inputs(AuditedFrame& frame);
   Status render_round(const Conditions& varied, std::size_t number, Rerenderer& rerenderer);
   Status judge(const Campaign& rendered, AuditedFrame& frame);
@@ -88,6 +89,7 @@ class Auditor {
   const AuditOptions& options_;
   bool portable_;
   std::vector<std::int64_t> companions_;  ///< see arrange
+  int threads_ = 1;                       ///< with which the sample was rendered
   Audit audit_;
   /// By frame: the first round in which it differed, and what it was made with there.
   struct Departure {

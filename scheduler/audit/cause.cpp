@@ -8,6 +8,7 @@
 #include "audit/culprit.h"
 #include "base/files.h"
 #include "base/sha256.h"
+#include "campaign/input_files.h"
 #include "campaign/provenance.h"
 
 namespace seedframe {
@@ -49,9 +50,8 @@ std::string describe(const Kernels& kernels) {
   return fmt::format("Cycles' kernel {} and Embree's {}", kernels.cycles, kernels.embree);
 }
 
-bool looks_like_history(const Conditions& culprits) {
-  return culprits.contains(Condition::kHistory) || culprits.contains(Condition::kOrder) ||
-         culprits.contains(Condition::kWorkers);
+bool are_history(const Conditions& culprits) {
+  return culprits.contains(Condition::kHistory) || culprits.contains(Condition::kOrder);
 }
 
 }  // namespace
@@ -63,10 +63,10 @@ const char* to_string(CauseKind kind) {
   return kKindNames[static_cast<std::size_t>(kind)];
 }
 
-Cause cause_of_inputs(const CampaignFiles& files, const PreparedCampaign& prepared,
+Cause cause_of_inputs(const Campaign& campaign, const PreparedCampaign& prepared,
                       const std::vector<std::string>& spec) {
   std::vector<std::string> changed;
-  const Result<std::string> text = read_file(files.provenance());
+  const Result<std::string> text = read_file(campaign.files.provenance());
   const Json before = text ? Json::parse(*text, nullptr, false) : Json();
   if (before.is_object()) {
     const std::uint64_t seed = before.value("seed", prepared.config.seed);
@@ -79,6 +79,10 @@ Cause cause_of_inputs(const CampaignFiles& files, const PreparedCampaign& prepar
     if (changed.empty() && before.value("config_sha256", config) != config) {
       changed.emplace_back("campaign.yaml is not the config that was submitted");
     }
+  }
+  const auto files = inputs_changed_since(campaign, prepared);
+  if (changed.empty() && files) {
+    for (const std::string& file : *files) changed.push_back(file + " has changed");
   }
   if (changed.empty() && !spec.empty()) changed.push_back("its frame spec has changed: " + spec[0]);
   if (changed.size() > kMostInputs) changed.resize(kMostInputs);
@@ -180,7 +184,7 @@ Result<Cause> CauseFinder::name(const Conditions& culprits, const Json& provenan
                                             "shown change the picture"
                                           : "it was rendered again with " + difference};
   }
-  if (!looks_like_history(culprits)) {
+  if (!are_history(culprits)) {
     return Cause{CauseKind::kCondition,
                  fmt::format("the picture changes with {}", seedframe::describe(culprits))};
   }
@@ -199,10 +203,7 @@ Result<Cause> CauseFinder::name(const Conditions& culprits, const Json& provenan
           "the picture; with it off they do not"};
     }
   }
-  return Cause{CauseKind::kHistory,
-               fmt::format("the frames that its worker renders before or beside it "
-                           "change the picture (found by varying {})",
-                           seedframe::describe(culprits))};
+  return Cause{CauseKind::kHistory, "the frames that its worker renders before change the picture"};
 }
 
 /// Alone and in the conditions that were noted it is not what is stored.

@@ -98,10 +98,10 @@ RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
   return options;
 }
 
-std::vector<std::int64_t> arrange(std::vector<std::int64_t> frames, const Conditions& varied,
-                                  const std::vector<std::int64_t>& companions, int workers) {
+Arrangement arrange(std::vector<std::int64_t> frames, const Conditions& varied,
+                    const std::vector<std::int64_t>& companions, int workers) {
   constexpr std::size_t kBeforePerWorker = 2;
-  const auto at_once = static_cast<std::size_t>(workers);
+  auto at_once = static_cast<std::size_t>(workers);
   if (varied.contains(Condition::kOrder)) std::reverse(frames.begin(), frames.end());
   std::vector<std::int64_t> others;
   std::copy_if(companions.begin(), companions.end(), std::back_inserter(others),
@@ -109,17 +109,20 @@ std::vector<std::int64_t> arrange(std::vector<std::int64_t> frames, const Condit
                  return std::find(frames.begin(), frames.end(), frame) == frames.end();
                });
   if (varied.contains(Condition::kHistory)) {
+    at_once = std::clamp<std::size_t>(others.size(), 1, at_once);
     others.resize(std::min(others.size(), kBeforePerWorker * at_once));
     frames.insert(frames.begin(), others.begin(), others.end());
   } else if (varied.contains(Condition::kWorkers) && frames.size() < at_once) {
     others.resize(std::min(others.size(), at_once - frames.size()));
     frames.insert(frames.end(), others.begin(), others.end());
   }
-  return frames;
+  return {std::move(frames), static_cast<int>(at_once)};
 }
 
-Result<Campaign> Rerenderer::render(const std::vector<std::int64_t>& frames,
-                                    const RunOptions& options, const fs::path& folder) {
+Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions options,
+                                    const fs::path& folder) {
+  const std::vector<std::int64_t>& frames = arrangement.frames;
+  options.workers = arrangement.workers;
   std::error_code ignored;
   fs::remove_all(folder, ignored);
   if (Status made = make_folders(folder); !made) return forward_error(made);

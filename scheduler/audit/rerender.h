@@ -35,11 +35,16 @@ RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
 /// A folder for temporary files as no other is named, below an audit's.
 inline constexpr const char* kElsewhere = "elsewhere für später";
 
-/// The order in which `frames` are rendered, and what else is: with kHistory some companions before
-/// them for each worker, with kOrder the last frame first, and with kWorkers companions beside them
-/// if there are fewer frames than workers.
-std::vector<std::int64_t> arrange(std::vector<std::int64_t> frames, const Conditions& varied,
-                                  const std::vector<std::int64_t>& companions, int workers);
+struct Arrangement {
+  std::vector<std::int64_t> frames;  ///< in the order in which they are handed out
+  int workers = 1;
+};
+
+/// What to render to get `frames`: with kHistory some companions before them for each worker, with
+/// kOrder the last frame first, and with kWorkers companions beside them if there are fewer frames
+/// than workers. With too few companions for a history, there are fewer workers.
+Arrangement arrange(std::vector<std::int64_t> frames, const Conditions& varied,
+                    const std::vector<std::int64_t>& companions, int workers);
 
 /// Renders frames anew, finished as those of the campaign; which is only read.
 class Rerenderer {
@@ -48,9 +53,9 @@ class Rerenderer {
   Rerenderer(PreparedCampaign& prepared, const ColorManagement* color, RunObserver& observer)
       : prepared_(prepared), color_(color), observer_(observer) {}
 
-  /// In this order, into a folder that becomes a campaign of these frames alone. What was there is
-  /// removed. A frame that failed is no error: its row says why.
-  Result<Campaign> render(const std::vector<std::int64_t>& frames, const RunOptions& options,
+  /// Into a folder that becomes a campaign of these frames alone. What was there is removed. The
+  /// number of workers is the arrangement's. A frame that failed is no error: its row says why.
+  Result<Campaign> render(const Arrangement& arrangement, RunOptions options,
                           const std::filesystem::path& folder);
 
  private:

@@ -115,6 +115,13 @@ std::vector<std::string> changed_inputs(const InputStamps& before, const InputSt
   return changed;
 }
 
+Result<std::vector<std::string>> inputs_changed_since(const Campaign& campaign,
+                                                      const PreparedCampaign& prepared) {
+  const Result<InputStamps> before = stamps_of_submission(campaign);
+  if (!before) return forward_error(before);
+  return changed_inputs(*before, input_stamps(prepared));
+}
+
 Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign& prepared) {
   const Result<InputStamps> before = stamps_of_submission(campaign);
   if (!before) return forward_error(before);

@@ -19,6 +19,10 @@ InputStamps input_stamps(const PreparedCampaign& prepared);
 /// What of `now` is not in `before` as it is, and the other way round.
 std::vector<std::string> changed_inputs(const InputStamps& before, const InputStamps& now);
 
+/// The same between the campaign's submission (or its last renewal) and now.
+Result<std::vector<std::string>> inputs_changed_since(const Campaign& campaign,
+                                                      const PreparedCampaign& prepared);
+
 struct RenewedFrames {
   std::int64_t frames = 0;
   std::vector<std::string> inputs;  ///< that have changed

@@ -14,6 +14,7 @@ SEEDFRAME_FAKE in the environment is a JSON object; all keys are optional:
     "chatty_log_bytes": 1000            printed for each frame
     "delay_s": 0.1                      for each frame
     "starts_log": "path"                gets one line, the process id, for each start
+    "depends_on": ["threads", "locale"] what a pixel of every frame depends on (see DEPENDENCIES)
 """
 
 import json
@@ -24,6 +25,7 @@ import struct
 import sys
 import threading
 import time
+import zlib
 
 FAULTS = {
     "crash": "segmentation fault while rendering",
@@ -48,6 +50,17 @@ FAULTS = {
     "brighter": "the combined pass is brighter by 0.02",
     "other_label": "the first pixel of the first instance has no index",
 }
+DEPENDENCIES = {
+    "threads": lambda rendered: sys.argv[sys.argv.index("--threads") + 1],
+    "history": lambda rendered: rendered > 0,
+    "persistent data": lambda rendered: rendered > 0 and "--persistent-data" in sys.argv,
+    "tmpdir": lambda rendered: " " in os.environ.get("TMPDIR", ""),
+    "locale": lambda rendered: os.environ.get("LC_ALL", "").startswith("de"),
+    "timezone": lambda rendered: os.environ.get("TZ", ""),
+    "locale and timezone": lambda rendered: os.environ.get("LC_ALL", "").startswith("de") and "TZ" in os.environ,
+    "kernel": lambda rendered: kernel(),
+    "nothing": lambda rendered: time.time_ns(),
+}
 BACKGROUND_DEPTH = 1e10
 
 
@@ -64,14 +77,19 @@ def main():
         hang()
     reader = os.fdopen(option("--read-fd"), "rb", closefd=False)
     send({"type": "ready", "protocol": wishes.get("protocol", 3), "blender": "3.4.1", "build": "fake",
-          "ocio_config": "", "kernel": wishes.get("kernel", "avx2"), "embree": "avx2", "reciprocals": "fake", "libc": ""})
+          "ocio_config": "", "kernel": wishes.get("kernel", kernel()), "embree": os.environ.get("SEEDFRAME_EMBREE_ISA", "avx2"), "reciprocals": "fake", "libc": ""})
     threading.Thread(target=give_signs_of_life, daemon=True).start()
-    for line in reader:
-        send(answer(json.loads(line), wishes))
+    for rendered, line in enumerate(reader):
+        send(answer(json.loads(line), wishes, rendered))
     return 0
 
 
-def answer(request, wishes):
+def kernel():
+    return "avx" if "CYCLES_CPU_NO_AVX2" in os.environ else "avx2"
+
+
+def answer(request, wishes, rendered):
+    """The `rendered` frames before are of no account, unless it is wished for."""
     frame, attempt = request["frame"], request["attempt"]
     fault = next((f for f in FAULTS if meets(wishes, f, frame, attempt)), None)
     print("." * wishes.get("chatty_log_bytes", 0), flush=True)
@@ -96,14 +114,15 @@ def answer(request, wishes):
         return {"type": "failed", "frame": frame, "attempt": attempt, "error": "fake: will not render"}
     if fault != "no_file":
         frame_id = "0" * 64 if fault == "other_frame" else request["frame_id"]
-        data = exr_bytes(*draw(request["spec"], fault), frame_id)
+        dependencies = [str(DEPENDENCIES[name](rendered)) for name in wishes.get("depends_on", [])]
+        data = exr_bytes(*draw(request["spec"], fault, dependencies), frame_id)
         pathlib.Path(request["output"]).write_bytes(
             data[:len(data) // 2] if fault == "half_exr" else data)
     return {"type": "done", "frame": frame + (fault == "wrong_frame"),
             "attempt": attempt + (fault == "wrong_attempt"), "build_s": 0.001, "render_s": 0.002}
 
 
-def draw(spec, fault=None):
+def draw(spec, fault=None, dependencies=()):
     """(width, height, channels) of the frame; channels are (name, array) in the order of an EXR."""
     import numpy  # late: it takes longer to load than many tests take
 
@@ -123,6 +142,8 @@ def draw(spec, fault=None):
         depth[rows, columns] = z
         normal[rows, columns] = (0, 0, 1)
     combined[0, 0, :3] = (render["seed"] % 1000) / 1000  # so that the seed shows
+    for text in dependencies:
+        combined[2, 2, 0] += zlib.crc32(text.encode()) % 100 / 10000
     if fault == "last_bit":
         combined[1, 1, 0] = numpy.nextafter(combined[1, 1, 0].astype("<f2"), numpy.float16(9))
     if fault == "brighter":
