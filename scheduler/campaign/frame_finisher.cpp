@@ -47,6 +47,10 @@ Result<FramePasses> read_frame_passes(const FinishTask& task) {
   return sharp;
 }
 
+Grazes grazes_of(const Twin& twin) {
+  return [&twin](int row, int column, std::uint16_t id) { return twin.grazes(row, column, id); };
+}
+
 /// Moves what was rendered out of the attempt's folder, which goes, and puts beside it what it
 /// should have been.
 Status keep_rejected(const FinishTask& task, const Image<std::uint16_t>& rendered, const Twin& twin,
@@ -62,7 +66,8 @@ Status keep_rejected(const FinishTask& task, const Image<std::uint16_t>& rendere
   writer.write(frame_files::kSpec, readable_json(to_json(task.spec)));
   writer.write(frame_files::kInstances, encode_png(rendered));
   writer.write(frame_files::kTwin, encode_png(twin.instance_ids));
-  writer.write(frame_files::kDifference, encode_png(difference_image(rendered, twin.instance_ids)));
+  writer.write(frame_files::kDifference,
+               encode_png(difference_image(rendered, twin.instance_ids, grazes_of(twin))));
   writer.write(frame_files::kReason, reason + "\n");
   return writer.status();
 }
@@ -70,8 +75,9 @@ Status keep_rejected(const FinishTask& task, const Image<std::uint16_t>& rendere
 Result<TwinTally> check(const FinishTask& task, const LabelConfig& labels,
                         const Image<std::uint16_t>& rendered, const Twin& twin) {
   if (!labels.check || !task.spec.labels.twin_exact) return TwinTally{};
-  const TwinVerdict verdict = compare_with_twin(task.spec, rendered, twin.instance_ids,
-                                                {labels.tolerance, labels.edge_tolerance});
+  const TwinVerdict verdict =
+      compare_with_twin(task.spec, rendered, twin.instance_ids,
+                        {labels.tolerance, labels.edge_tolerance}, grazes_of(twin));
   if (verdict.complaint.empty()) return verdict.tally;
   if (Status kept = keep_rejected(task, rendered, twin, verdict.complaint); !kept) {
     return forward_error(kept);

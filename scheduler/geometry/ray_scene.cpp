@@ -175,9 +175,12 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 const PixelCamera& RayScene::camera() const { return scene_->camera; }
 const std::vector<RayInstance>& RayScene::instances() const { return scene_->instances; }
 
-int RayScene::first_hit(int x, int y) const {
+int RayScene::first_hit(int x, int y, const std::array<double, 2>& offset_px) const {
+  PixelCamera camera = scene_->camera;
+  camera.center_px[0] -= offset_px[0];
+  camera.center_px[1] -= offset_px[1];
   RayPacket packet;
-  packet.aim(scene_->camera, x, y, 1, x + 1, y + 1);
+  packet.aim(camera, x, y, 1, x + 1, y + 1);
   packet.find_first_hits(scene_->all);
   return packet.hit(0);
 }

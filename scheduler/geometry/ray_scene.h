@@ -100,8 +100,9 @@ class RayScene {
   const PixelCamera& camera() const;
   const std::vector<RayInstance>& instances() const;
 
-  /// Index of the instance that the ray through the centre of a pixel hits first; -1: none.
-  int first_hit(int x, int y) const;
+  /// Index of the instance that the ray through the centre of a pixel, or `offset_px` beside it,
+  /// hits first; -1: none.
+  int first_hit(int x, int y, const std::array<double, 2>& offset_px = {}) const;
 
   /// Whether a surface stands between the camera and a point of its frame, `tolerance_m` or more
   /// before it. `transparent`: the index of an instance that hides nothing; -1: none.

@@ -1,6 +1,7 @@
 #include "twin/twin.h"
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <unordered_map>
 
@@ -44,6 +45,23 @@ Twin::Twin(RayScene scene, RayImage image, std::vector<int> ids)
       });
   if (!image_.depth.empty()) depth = depth_image(image_);
   if (!image_.normals.empty()) normal = normal_image(image_);
+}
+
+bool Twin::grazes(int row, int column, std::uint16_t id) const {
+  constexpr double kFar = 0.01;
+  constexpr double kDiagonal = 0.007;
+  constexpr std::array<std::array<double, 2>, 8> kOffsets = {{{kFar, 0},
+                                                              {-kFar, 0},
+                                                              {0, kFar},
+                                                              {0, -kFar},
+                                                              {kDiagonal, kDiagonal},
+                                                              {kDiagonal, -kDiagonal},
+                                                              {-kDiagonal, kDiagonal},
+                                                              {-kDiagonal, -kDiagonal}}};
+  return std::any_of(kOffsets.begin(), kOffsets.end(), [&](const std::array<double, 2>& offset) {
+    const int hit = scene_.first_hit(column, row, offset);
+    return (hit < 0 ? 0 : ids_[static_cast<std::size_t>(hit)]) == static_cast<int>(id);
+  });
 }
 
 std::vector<Silhouette> Twin::silhouettes(const Image<std::uint16_t>& visible_ids) const {

@@ -34,6 +34,10 @@ class Twin {
     return scene_.hides(point, tolerance_m, transparent);
   }
 
+  /// Whether a ray through the pixel, within a hundredth of a pixel of its centre, sees this id:
+  /// then rounding decides which id the pixel gets.
+  bool grazes(int row, int column, std::uint16_t id) const;
+
   /// Of an instance's mesh, in object space, metres.
   const BoundingBox& object_box(std::size_t instance) const {
     return scene_.instances()[instance].mesh->box();

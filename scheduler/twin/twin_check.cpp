@@ -26,12 +26,15 @@ bool near(const Ids& image, int row, int column, std::uint16_t id) {
 
 enum class Difference : std::uint8_t { kNone = 0, kEdge = 128, kInside = 255 };
 
-Difference difference(const Ids& rendered, const Ids& twin, int row, int column) {
+/// At an edge each image has the other's id beside the pixel; or it is a glimpse of something that
+/// is smaller than a pixel.
+Difference difference(const Ids& rendered, const Ids& twin, int row, int column,
+                      const Grazes& grazes) {
   const std::uint16_t r = rendered.at(row, column);
   const std::uint16_t t = twin.at(row, column);
   if (r == t) return Difference::kNone;
-  return near(rendered, row, column, t) && near(twin, row, column, r) ? Difference::kEdge
-                                                                      : Difference::kInside;
+  const bool edge = near(rendered, row, column, t) && near(twin, row, column, r);
+  return edge || (grazes && grazes(row, column, r)) ? Difference::kEdge : Difference::kInside;
 }
 
 /// Pixels of one id.
@@ -98,7 +101,7 @@ constexpr const char* kHint =
 }  // namespace
 
 TwinVerdict compare_with_twin(const FrameSpec& spec, const Ids& rendered, const Ids& twin,
-                              const TwinTolerance& tolerance) {
+                              const TwinTolerance& tolerance, const Grazes& grazes) {
   assert(rendered.width == twin.width && rendered.height == twin.height);
   TwinVerdict verdict;
   TwinTally& tally = verdict.tally;
@@ -106,7 +109,7 @@ TwinVerdict compare_with_twin(const FrameSpec& spec, const Ids& rendered, const 
   if (rendered.values == twin.values) return verdict;
   for (int row = 0; row < twin.height; ++row) {
     for (int column = 0; column < twin.width; ++column) {
-      const Difference found = difference(rendered, twin, row, column);
+      const Difference found = difference(rendered, twin, row, column, grazes);
       if (found == Difference::kEdge) ++tally.edge_px;
       if (found == Difference::kInside) ++tally.inside_px;
     }
@@ -134,11 +137,12 @@ TwinVerdict compare_with_twin(const FrameSpec& spec, const Ids& rendered, const 
   return verdict;
 }
 
-Image<std::uint8_t> difference_image(const Ids& rendered, const Ids& twin) {
+Image<std::uint8_t> difference_image(const Ids& rendered, const Ids& twin, const Grazes& grazes) {
   Image<std::uint8_t> image(twin.width, twin.height);
   for (int row = 0; row < twin.height; ++row) {
     for (int column = 0; column < twin.width; ++column) {
-      image.at(row, column) = static_cast<std::uint8_t>(difference(rendered, twin, row, column));
+      image.at(row, column) =
+          static_cast<std::uint8_t>(difference(rendered, twin, row, column, grazes));
     }
   }
   return image;

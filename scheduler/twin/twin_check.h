@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "base/twin_tally.h"
@@ -23,12 +24,16 @@ struct TwinVerdict {
   std::string complaint;
 };
 
-/// Both images are of the spec's size.
+/// Whether the twin sees an id a trifle beside a pixel's centre; Twin::grazes.
+using Grazes = std::function<bool(int row, int column, std::uint16_t id)>;
+
+/// Both images are of the spec's size. Without `grazes` nothing does.
 TwinVerdict compare_with_twin(const FrameSpec& spec, const Image<std::uint16_t>& rendered,
-                              const Image<std::uint16_t>& twin, const TwinTolerance& tolerance);
+                              const Image<std::uint16_t>& twin, const TwinTolerance& tolerance,
+                              const Grazes& grazes = {});
 
 /// Grey: 0 where the images agree, 128 at edges, 255 inside.
 Image<std::uint8_t> difference_image(const Image<std::uint16_t>& rendered,
-                                     const Image<std::uint16_t>& twin);
+                                     const Image<std::uint16_t>& twin, const Grazes& grazes = {});
 
 }  // namespace seedframe

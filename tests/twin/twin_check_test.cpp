@@ -46,6 +46,20 @@ TEST(TwinCheck, AFewPixelsAtAnOutlineAreCountedAndAllowed) {
   EXPECT_EQ(verdict.tally, (TwinTally{160 * 120, 0, 2}));
 }
 
+TEST(TwinCheck, AGlimpseOfSomethingSmallerThanAPixelIsAnEdge) {
+  const Ids twin = with_rectangle(20, 20, 60, 50, 3);
+  Ids rendered = twin;
+  rendered.at(40, 40) = 7;  // and nowhere else in either
+  rendered.at(50, 50) = 7;
+  const auto grazes = [](int row, int column, std::uint16_t id) {
+    return row == 40 && column == 40 && id == 7;
+  };
+  EXPECT_EQ(compare_with_twin(spec_of_two(), rendered, twin, kDefault, grazes).tally,
+            (TwinTally{160 * 120, 1, 1}));
+  EXPECT_EQ(difference_image(rendered, twin, grazes).at(40, 40), 128);
+  EXPECT_EQ(difference_image(rendered, twin, grazes).at(50, 50), 255);
+}
+
 TEST(TwinCheck, AHoleInAnInstanceIsInside) {
   const Ids twin = with_rectangle(20, 20, 60, 50, 3);
   const Ids rendered = with_rectangle(40, 40, 2, 1, 0, twin);

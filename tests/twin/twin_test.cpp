@@ -49,6 +49,20 @@ TEST(Twin, DepthIsPlanarAndNormalsPointToTheCamera) {
   for (int c = 0; c < 3; ++c) EXPECT_EQ(twin->normal->at(5, 5, c), 0.0F);
 }
 
+TEST(Twin, KnowsWhatAPixelGrazes) {
+  FrameSpec spec = empty_spec();
+  // Its right edge is 5 thousandths of a pixel to the right of the centre of column 90.
+  spec.instances = {cube_at(cube(), 3, 0.0505, 0, -11)};
+  const auto twin = TwinTracer().trace(spec, cube().buffers, kIdsOnly);
+  ASSERT_TRUE(twin);
+  EXPECT_EQ(twin->instance_ids.at(59, 90), 3);
+  EXPECT_TRUE(twin->grazes(59, 90, 0));
+  EXPECT_TRUE(twin->grazes(59, 90, 3));
+  EXPECT_FALSE(twin->grazes(59, 90, 7));
+  EXPECT_FALSE(twin->grazes(59, 89, 0));
+  EXPECT_FALSE(twin->grazes(59, 91, 3));
+}
+
 TEST(Twin, FromTheInsideNormalsPointToTheCameraToo) {
   FrameSpec spec = empty_spec();
   spec.render.normal = true;
