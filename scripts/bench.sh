@@ -7,6 +7,7 @@
 #   scripts/bench.sh NAME…         of expansion, twin, stability, overhead, memory, export, store
 set -eu
 cd "$(dirname "$0")/.."
+export SEEDFRAME_CACHE=off  # what is rendered here is rendered
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
 ninja --quiet -C build/release seedframe bench_expansion bench_twin bench_export bench_store stability
 mkdir -p results/bench results/stability results/reliability

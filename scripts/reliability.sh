@@ -6,6 +6,7 @@
 #   scripts/reliability.sh quick [BUILD]   a sample, in a minute or two, into no report; BUILD is build/release by default
 set -u
 cd "$(dirname "$0")/.."
+export SEEDFRAME_CACHE=off  # what is rendered here is rendered
 what=${1:-full}
 build=${2:-build/release}
 failed=0

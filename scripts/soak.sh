@@ -4,6 +4,7 @@
 #   scripts/soak.sh
 set -eu
 cd "$(dirname "$0")/.."
+export SEEDFRAME_CACHE=off  # what is rendered here is rendered
 ninja --quiet -C build/release seedframe
 echo "== a long campaign with the real Blender"
 tests/reliability/soak.py --report results/reliability/soak.md

@@ -6,6 +6,7 @@
 #   scripts/test.sh unit    unit tests of the release build only
 set -u
 cd "$(dirname "$0")/.."
+export SEEDFRAME_CACHE=off  # what is rendered here is rendered
 what=${1:-all}
 scripts/setup.sh --packages || exit 1
 

@@ -123,6 +123,7 @@ Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions o
                                     const fs::path& folder) {
   const std::vector<std::int64_t>& frames = arrangement.frames;
   options.workers = arrangement.workers;
+  options.cache.clear();  // what is audited is never taken from anywhere
   std::error_code ignored;
   fs::remove_all(folder, ignored);
   if (Status made = make_folders(folder); !made) return forward_error(made);

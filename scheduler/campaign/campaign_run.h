@@ -30,6 +30,9 @@ struct RunOptions {
   std::int64_t worker_memory_bytes = 0;  ///< a larger one is replaced; 0: none is
   bool sandbox = false;                  ///< see sandbox.h
   std::uint64_t frame_bytes = 0;         ///< that a frame takes on the disk, about
+  std::filesystem::path
+      cache;  ///< folder of the FrameCache; empty: frames are neither taken nor added
+  bool take_from_cache = true;  ///< false: only add
 };
 
 /// What a run tells while it runs; called from its own threads, one at a time.

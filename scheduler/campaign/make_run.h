@@ -10,8 +10,8 @@
 
 namespace seedframe {
 
-/// `color` is null when labels come from geometry, without Blender. All but the options must outlive
-/// the run.
+/// `color` is null when labels come from geometry, without Blender. All but the options must
+/// outlive the run.
 std::unique_ptr<CampaignRun> make_run(Campaign& campaign, PreparedCampaign& prepared,
                                       const ColorManagement* color, Provenance& provenance,
                                       const RunOptions& options, RunObserver& observer);

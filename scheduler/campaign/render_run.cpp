@@ -82,6 +82,8 @@ RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, const Color
       provenance_(provenance),
       observer_(observer),
       room_needed_(room_for_attempts(options)),
+      cache_(FrameCache::open(options.cache)),
+      take_from_cache_(options.take_from_cache),
       finisher_(prepared.config, 1),  // the cores are the workers'
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
@@ -106,10 +108,11 @@ Result<RunSummary> RenderRun::run(const std::vector<PendingFrame>& frames) {
   std::error_code ignored;
   fs::remove_all(campaign_.files.work(), ignored);
   if (!error_) return forward_error(error_);
+  if (summary) summary->from_cache = from_cache_;
   return summary;
 }
 
-Result<RenderRequest> RenderRun::request(const FrameJob& job) {
+Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
   const Result<std::uint64_t> room = free_bytes(campaign_.files.root());
   if (room && *room < room_needed_) {
     if (Status disk = check_disk(campaign_.files, room_needed_); !disk) return forward_error(disk);
@@ -118,6 +121,7 @@ Result<RenderRequest> RenderRun::request(const FrameJob& job) {
   if (!expanded) return forward_error(expanded);
   const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
   if (Status made = make_folders(attempt); !made) return forward_error(made);
+  if (take_from_cache(job, expanded->id, attempt)) return std::nullopt;
   RenderRequest request;
   request.spec = canonical_text(expanded->spec);
   request.frame_id = expanded->id;
@@ -137,6 +141,34 @@ Result<RenderRequest> RenderRun::request(const FrameJob& job) {
   tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), std::move(buffers), attempt,
                  campaign_.files.rejected(job.frame)};
   return request;
+}
+
+bool RenderRun::take_from_cache(const FrameJob& job, const std::string& frame_id,
+                                const fs::path& attempt) {
+  if (!cache_ || !take_from_cache_ || cache_key_.empty()) return false;
+  const auto start = std::chrono::steady_clock::now();
+  const std::optional<fs::path> found = cache_->find(frame_id, cache_key_);
+  if (!found) return false;
+  const Result<Manifest> manifest = link_frame(*found, frame_id, attempt);
+  if (!manifest) {
+    cache_->forget(frame_id, cache_key_);
+    return false;
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  ++from_cache_;
+  writer_->push(AttemptStarted{job, kNoWorker, unix_time(), made_with_});
+  writer_->push(
+      FrameFinished{job, manifest->pixel_hash(), manifest->twin, {0.0, 0.0, seconds.count()}});
+  return true;
+}
+
+void RenderRun::add_to_cache(const FrameJob& job) {
+  if (!cache_ || !same_workers_) return;
+  const auto row = campaign_.store.frame(job.frame);
+  if (!row || !*row) return;
+  std::error_code ignored;
+  cache_->add((*row)->frame_id, cache_key_,
+              fs::absolute(campaign_.files.frame(job.frame), ignored));
 }
 
 Result<std::map<std::string, fs::path>> RenderRun::write_mesh_buffers(const MeshBuffers& meshes) {
@@ -212,7 +244,10 @@ void RenderRun::keep_crash_log(const FrameJob& job, const AttemptFailure& failur
 void RenderRun::written(const StoreEvent& event, const Status& status) {
   keep_error(status);
   if (const auto* finished = std::get_if<FrameFinished>(&event)) {
-    if (status) observer_.frame_done(finished->job.frame);
+    if (status) {
+      observer_.frame_done(finished->job.frame);
+      add_to_cache(finished->job);
+    }
     pool_->post_verdict(finished->job, {});
   }
   if (const auto* failed = std::get_if<AttemptFailed>(&event)) {
@@ -225,6 +260,11 @@ void RenderRun::worker_ready(int worker, const ReadyMessage& ready) {
   if (!text) return keep_error(forward_error(text));
   const std::string departure = provenance_.departure(*text);
   if (!departure.empty() && !std::exchange(departure_noted_, true)) observer_.noted(departure);
+  if (cache_ && cache_key_.empty()) {
+    made_with_ = *text;
+    cache_key_ = cache_key(Json::parse(*text), prepared_.config);
+  }
+  if (*text != made_with_) same_workers_ = false;
   provenance_of_worker_[worker] = std::move(*text);
 }
 

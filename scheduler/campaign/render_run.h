@@ -2,6 +2,7 @@
 // store.
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include "campaign/campaign.h"
 #include "campaign/campaign_run.h"
 #include "campaign/finish_queue.h"
+#include "campaign/frame_cache.h"
 #include "campaign/frame_finisher.h"
 #include "campaign/provenance.h"
 #include "campaign/store_writer.h"
@@ -34,13 +36,17 @@ class RenderRun : public CampaignRun, public RenderClient {
   void drain() override { pool_->drain(); }
 
  private:
-  Result<RenderRequest> request(const FrameJob& job) override;
+  Result<std::optional<RenderRequest>> request(const FrameJob& job) override;
   void started(const FrameJob& job, int worker) override;
   void rendered(const FrameJob& job, const RenderTimings& timings, int worker) override;
   void attempt_failed(const FrameJob& job, const AttemptFailure& failure) override;
   Status check_system() override;
   void worker_ready(int worker, const ReadyMessage& ready) override;
 
+  /// Commits the frame from another campaign, if it was rendered with the same; false if not.
+  bool take_from_cache(const FrameJob& job, const std::string& frame_id,
+                       const std::filesystem::path& attempt);
+  void add_to_cache(const FrameJob& job);
   /// Writes those that no frame before had. Returns the files' paths by SHA-256.
   Result<std::map<std::string, std::filesystem::path>> write_mesh_buffers(
       const MeshBuffers& meshes);
@@ -58,7 +64,13 @@ class RenderRun : public CampaignRun, public RenderClient {
   const ColorManagement& color_;
   Provenance& provenance_;
   RunObserver& observer_;
-  std::uint64_t room_needed_;  ///< bytes that frames under way may still take
+  std::uint64_t room_needed_;          ///< bytes that frames under way may still take
+  std::unique_ptr<FrameCache> cache_;  ///< null: there is none
+  bool take_from_cache_;
+  std::atomic<bool> same_workers_ = true;  ///< all with the same provenance
+  std::string made_with_;                  ///< by the first worker that was ready
+  std::string cache_key_;                  ///< of that
+  std::int64_t from_cache_ = 0;
   FrameFinisher finisher_;
   std::map<FrameJob, FinishTask> tasks_;  ///< requested and not yet rendered
   std::map<int, std::string> provenance_of_worker_;

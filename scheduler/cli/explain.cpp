@@ -103,8 +103,11 @@ void print_explanation(const Explanation& explanation, const Campaign& campaign,
   fmt::print("scene      {} instances, {} materials, {} lights; Cycles seed {}\n",
              spec.instances.size(), spec.materials.size(), spec.lights.size(), spec.render.seed);
   for (const AttemptRow& attempt : explanation.attempts) {
-    fmt::print("attempt {}  worker {}, {}: build {:.3f} s, render {:.3f} s, finish {:.3f} s{}{}\n",
-               attempt.attempt, attempt.worker, to_string(attempt.outcome), attempt.build_s,
+    const std::string maker = attempt.worker == kNoWorker
+                                  ? "found on this machine"
+                                  : fmt::format("worker {}", attempt.worker);
+    fmt::print("attempt {}  {}, {}: build {:.3f} s, render {:.3f} s, finish {:.3f} s{}{}\n",
+               attempt.attempt, maker, to_string(attempt.outcome), attempt.build_s,
                attempt.render_s, attempt.finish_s, attempt.message.empty() ? "" : "\n  ",
                attempt.message);
     const Json provenance = provenance_json(attempt);

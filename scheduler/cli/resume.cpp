@@ -82,6 +82,7 @@ int resume(ResumeArguments arguments) {
   Result<RunSetup> setup = set_up_run(arguments.run, prepared->config,
                                       static_cast<std::int64_t>(state->to_render.size()));
   if (!setup) return report(setup.error());
+  if (!arguments.frames.empty()) setup->options.take_from_cache = false;  // "render", it says
   return run_campaign(*campaign, *prepared, *setup, std::move(state->to_render), arguments.run);
 }
 

@@ -155,12 +155,15 @@ Result<std::vector<PendingFrame>> pause(Campaign& campaign, const RunSetup& setu
   return left;
 }
 
-int print_outcome(Campaign& campaign, std::int64_t done_before, double seconds) {
+int print_outcome(Campaign& campaign, std::int64_t done_before, std::int64_t from_cache,
+                  double seconds) {
   const std::string folder = campaign.files.root().string();
   const Result<FrameCounts> counts = campaign.store.counts();
   if (!counts) return report(counts.error());
-  fmt::print("{} of {} frames are done ({} in this run, {})\n", counts->done, counts->total(),
-             std::max<std::int64_t>(0, counts->done - done_before), duration_text(seconds));
+  fmt::print("{} of {} frames are done ({} in this run{}, {})\n", counts->done, counts->total(),
+             std::max<std::int64_t>(0, counts->done - done_before),
+             from_cache > 0 ? fmt::format(", {} of them found on this machine", from_cache) : "",
+             duration_text(seconds));
   if (counts->quarantined > 0) {
     fmt::print(
         "{} frames are quarantined, each has cost too many workers: 'seedframe status {}' "
@@ -229,7 +232,7 @@ int run_campaign(Campaign& campaign, PreparedCampaign& prepared, RunSetup& setup
     return DrainOnSignals::interrupted() ? static_cast<int>(kExitInterrupted) : code;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return print_outcome(campaign, before->done, seconds.count());
+  return print_outcome(campaign, before->done, summary->from_cache, seconds.count());
 }
 
 }  // namespace seedframe

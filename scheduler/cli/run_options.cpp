@@ -49,6 +49,8 @@ void add_run_options(CLI::App& verb, RunArguments& arguments) {
   verb.add_flag("--sandbox", arguments.sandbox,
                 "workers without network, that can write nowhere but into the campaign (needs "
                 "bubblewrap)");
+  verb.add_flag("--no-cache", arguments.no_cache,
+                "render frames that have been rendered on this machine, too");
   verb.add_option("--pause-limit", arguments.pause_limit_s,
                   "seconds to wait for room when the disk is full; 0: end at once")
       ->check(CLI::NonNegativeNumber)
@@ -101,6 +103,9 @@ Result<RunSetup> set_up_rendering(const RunArguments& arguments, const CampaignC
     if (Status works = check_sandbox(); !works) return forward_error(works);
   }
   options.sandbox = arguments.sandbox;
+  // Frames that promise nothing are nobody else's.
+  if (config.determinism.mode != DeterminismConfig::Mode::kNone) options.cache = cache_folder();
+  options.take_from_cache = !arguments.no_cache;
   options.attempts = {arguments.max_attempts, arguments.max_crashes};
   options.frame_timeout = milliseconds(arguments.frame_timeout_s);
   options.heartbeat_timeout = milliseconds(arguments.heartbeat_timeout_s);

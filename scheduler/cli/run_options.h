@@ -27,6 +27,7 @@ struct RunArguments {
   int frames_per_worker = 2000;
   double worker_memory_gb = 0.0;  ///< 0: chosen
   bool sandbox = false;
+  bool no_cache = false;
   double pause_limit_s = 600.0;
   bool no_space_check = false;
   bool quiet = false;

@@ -25,6 +25,7 @@ class WorkerPool::Loop {
  private:
   using Clock = std::chrono::steady_clock;
 
+  static constexpr int kNoStart = 0;                          ///< of a worker: the first one is 1
   static constexpr std::chrono::milliseconds kPatience{500};  ///< for a worker to end by itself
 
   struct Worker {

@@ -135,9 +135,12 @@ std::optional<WorkerPool::Loop::PreparedJob> WorkerPool::Loop::prepare(Schedule&
   while (!stopped_by_ && schedule.unjudged() < options_.max_unjudged) {
     const std::optional<FrameJob> job = schedule.next(fresh_worker);
     if (!job) break;
-    const Result<RenderRequest> request = client_.request(*job);
-    if (request) return PreparedJob{*job, encode_render_message(*job, *request)};
-    if (ends_the_run(request.error())) {
+    const Result<std::optional<RenderRequest>> request = client_.request(*job);
+    if (request && *request) return PreparedJob{*job, encode_render_message(*job, **request)};
+    if (request) {
+      schedule.rendered(*job);
+      rendered_by_[*job] = kNoStart;
+    } else if (ends_the_run(request.error())) {
       schedule.withdraw(*job);
       stop_run(request.error());
     } else {

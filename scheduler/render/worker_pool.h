@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,9 +60,10 @@ class RenderClient {
  public:
   virtual ~RenderClient() = default;
 
-  /// May be called some time before started, and again for the same job if that never came. A
+  /// May be called some time before started, and again for the same job if that never came. Nothing:
+  /// no worker is needed, started is not called, and the verdict comes as after rendered. A
   /// kEnvironment or kExhausted error ends the run; any other fails the frame for good.
-  virtual Result<RenderRequest> request(const FrameJob& job) = 0;
+  virtual Result<std::optional<RenderRequest>> request(const FrameJob& job) = 0;
   virtual void started(const FrameJob& job, int worker) = 0;
   /// The worker says that the file is written. Hand it to post-processing, which must answer with
   /// post_verdict.
@@ -79,6 +81,7 @@ struct RunSummary {
   std::int64_t failed = 0;       ///< frames that failed for good
   std::int64_t quarantined = 0;  ///< frames that cost too many workers
   std::int64_t left = 0;         ///< frames not done because the run was drained
+  std::int64_t from_cache = 0;   ///< of those committed, found on this machine
   int worker_starts = 0;
 };
 

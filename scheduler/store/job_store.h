@@ -40,10 +40,13 @@ struct FrameRow {
   TwinTally twin;           ///< set when done
 };
 
+/// Of attempts that no worker made: the frame was there already (campaign/frame_cache.h).
+inline constexpr int kNoWorker = -1;
+
 struct AttemptRow {
   std::int64_t frame = 0;
   int attempt = 0;
-  int worker = 0;
+  int worker = 0;  ///< or kNoWorker
   AttemptOutcome outcome = AttemptOutcome::kRunning;
   double started = 0.0;    ///< Unix time, seconds
   double build_s = 0.0;    ///< building the scene in Blender

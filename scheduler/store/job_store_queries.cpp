@@ -211,6 +211,7 @@ Result<std::vector<std::int64_t>> JobStore::done_by_worker_before(const AttemptR
       "ORDER BY started DESC LIMIT ?");
   select.bind(1, std::int64_t{attempt.worker}).bind(2, attempt.started).bind(3, std::int64_t{most});
   std::vector<std::int64_t> frames;
+  if (attempt.worker == kNoWorker) return frames;
   while (select.step()) frames.insert(frames.begin(), select.integer(0));
   if (Status done = select.status(); !done) return forward_error(done);
   return frames;
@@ -245,9 +246,10 @@ Result<TwinSummary> JobStore::twin_summary() const {
 }
 
 Result<std::optional<AttemptTimings>> JobStore::mean_timings(int most) const {
-  Statement select(database_->connection,
-                   "SELECT count(*), avg(build_s), avg(render_s), avg(finish_s) FROM (SELECT * "
-                   "FROM attempts WHERE outcome = 'done' ORDER BY started DESC LIMIT ?)");
+  Statement select(
+      database_->connection,
+      "SELECT count(*), avg(build_s), avg(render_s), avg(finish_s) FROM (SELECT * "
+      "FROM attempts WHERE outcome = 'done' AND worker >= 0 ORDER BY started DESC LIMIT ?)");
   std::optional<AttemptTimings> mean;
   if (select.bind(1, std::int64_t{most}).step() && select.integer(0) > 0) {
     mean = {.build_s = select.real(1), .render_s = select.real(2), .finish_s = select.real(3)};

@@ -44,6 +44,7 @@ class ProgramTest : public ::testing::Test {
     const pid_t pid = ::fork();
     if (pid != 0) return pid;
     if (::chdir(folder_.c_str()) != 0) ::_exit(126);
+    ::setenv("SEEDFRAME_CACHE", "off", 1);  // so that what is rendered is rendered
     for (const std::string& entry : environment) ::putenv(const_cast<char*>(entry.c_str()));
     if (std::freopen("out.txt", "w", stdout) == nullptr) ::_exit(126);
     if (std::freopen("err.txt", "w", stderr) == nullptr) ::_exit(126);

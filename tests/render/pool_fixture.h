@@ -43,7 +43,7 @@ class RecordingClient : public RenderClient {
  public:
   explicit RecordingClient(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  Result<RenderRequest> request(const FrameJob& job) override {
+  Result<std::optional<RenderRequest>> request(const FrameJob& job) override {
     if (on_request) {
       if (const Status status = on_request(job); !status) return forward_error(status);
     }

@@ -60,7 +60,7 @@ class Renderer : public RenderClient {
   }
 
  private:
-  Result<RenderRequest> request(const FrameJob& job) override {
+  Result<std::optional<RenderRequest>> request(const FrameJob& job) override {
     RenderRequest request;
     request.spec = canonical_text(scenes_.frames[static_cast<std::size_t>(job.frame)]);
     request.output = folder_ / "passes.exr";

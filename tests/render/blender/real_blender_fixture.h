@@ -188,7 +188,7 @@ class RealBlender : public testing::Test, public RenderClient {
   }
 
   // RenderClient
-  Result<RenderRequest> request(const FrameJob& job) override {
+  Result<std::optional<RenderRequest>> request(const FrameJob& job) override {
     RenderRequest request;
     request.spec = canonical_json(to_json(specs.at(job.frame)));
     request.output = folder / "passes # 100%.exr";  // Blender must take nothing of it for a pattern

@@ -1,0 +1,92 @@
+#include "campaign/frame_cache.h"
+
+#include "base/campaign_files.h"
+#include "base/files.h"
+#include "base/sha256.h"
+
+namespace seedframe {
+namespace fs = std::filesystem;
+namespace {
+
+/// A power loss may cost entries, or the whole index: nothing is lost with it.
+constexpr const char* kCacheSchema = R"sql(
+PRAGMA journal_mode = WAL;
+PRAGMA synchronous = OFF;
+CREATE TABLE IF NOT EXISTS frames_1 (
+  frame_id TEXT NOT NULL,
+  made_with TEXT NOT NULL,
+  folder TEXT NOT NULL,
+  PRIMARY KEY (frame_id, made_with)
+) WITHOUT ROWID;
+)sql";
+
+Status link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (!error) return {};
+  fs::copy_file(from, to, error);
+  if (error) {
+    return fail(kind_of_errno(error.value()), "cannot copy {} to {}: {}", from.string(),
+                to.string(), error.message());
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string cache_key(const Json& provenance, const CampaignConfig& config) {
+  Json made_with = provenance;
+  made_with.erase("threads");
+  return sha256_hex(canonical_json(Json{
+      {"made_with", made_with},
+      {"categories", config.categories},
+      {"check", {config.labels.check, config.labels.tolerance, config.labels.edge_tolerance}}}));
+}
+
+Result<Manifest> link_frame(const fs::path& committed, const std::string& frame_id,
+                            const fs::path& folder) {
+  Result<Manifest> manifest = verify_frame(committed, frame_id, VerifyDepth::kContents);
+  if (!manifest) return manifest;
+  Status linked = link_or_copy(committed / frame_files::kManifest, folder / frame_files::kManifest);
+  for (const auto& [name, file] : manifest->files) {
+    if (linked) linked = link_or_copy(committed / name, folder / name);
+  }
+  if (linked) return manifest;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    fs::remove(entry.path(), ignored);
+  }
+  return forward_error(linked);
+}
+
+std::unique_ptr<FrameCache> FrameCache::open(const fs::path& folder) {
+  if (folder.empty() || !make_folders(folder)) return nullptr;
+  std::unique_ptr<FrameCache> cache(new FrameCache());
+  constexpr int kFlags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+  const bool usable = cache->connection_.open(folder / "frames.sqlite", kFlags).has_value() &&
+                      cache->connection_.execute(kCacheSchema).has_value();
+  return usable ? std::move(cache) : nullptr;
+}
+
+std::optional<fs::path> FrameCache::find(const std::string& frame_id, const std::string& key) {
+  const std::lock_guard lock(mutex_);
+  sqlite::Statement select(connection_,
+                           "SELECT folder FROM frames_1 WHERE frame_id = ? AND made_with = ?");
+  if (!select.bind(1, frame_id).bind(2, key).step()) return std::nullopt;
+  return fs::path(select.text(0));
+}
+
+void FrameCache::add(const std::string& frame_id, const std::string& key, const fs::path& folder) {
+  const std::lock_guard lock(mutex_);
+  sqlite::Statement insert(connection_, "INSERT OR REPLACE INTO frames_1 VALUES (?, ?, ?)");
+  (void)insert.bind(1, frame_id).bind(2, key).bind(3, folder.string()).run();
+}
+
+void FrameCache::forget(const std::string& frame_id, const std::string& key) {
+  const std::lock_guard lock(mutex_);
+  sqlite::Statement remove(connection_,
+                           "DELETE FROM frames_1 WHERE frame_id = ? AND made_with = ?");
+  (void)remove.bind(1, frame_id).bind(2, key).run();
+}
+
+}  // namespace seedframe
