@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kConfigFileKey = "config_file";  // absolute: the job store is not the dataset
 constexpr const char* kOverridesKey = "overrides";
-constexpr const char* kAllowedKey = "allowed_folders";  // a JSON list; none in older campaigns
+constexpr const char* kAllowedKey = "allowed_folders";  // a JSON list
 
 Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   for (const fs::path& folder : {files.frames(), files.logs()}) {
@@ -150,7 +150,7 @@ Result<CampaignSource> source_of(const Campaign& campaign, const fs::path& home,
   }
   const Result<std::string> folders = campaign.store.meta(kAllowedKey);
   if (!folders) return forward_error(folders);
-  const Result<Json> remembered = parse_json(folders->empty() ? "[]" : *folders, what);
+  const Result<Json> remembered = parse_json(*folders, what);
   if (!remembered) return forward_error(remembered);
   for (const Json& folder : *remembered) {
     if (folder.is_string()) source.allowed.add(folder.get<std::string>());

@@ -65,8 +65,8 @@ Result<RunSummary> WorkerPool::Loop::run(const std::vector<PendingFrame>& frames
   }
   stop_all(schedule);
   if (stopped_by_) return tl::unexpected(*stopped_by_);
-  return RunSummary{schedule.done(), schedule.failed(), schedule.quarantined(), schedule.waiting(),
-                    starts_};
+  return RunSummary{schedule.done(),    schedule.failed(), schedule.quarantined(),
+                    schedule.waiting(), starts_,           /*from_cache=*/0};
 }
 
 void WorkerPool::Loop::stop_run(Error error) {

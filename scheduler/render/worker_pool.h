@@ -81,8 +81,8 @@ struct RunSummary {
   std::int64_t failed = 0;       ///< frames that failed for good
   std::int64_t quarantined = 0;  ///< frames that cost too many workers
   std::int64_t left = 0;         ///< frames not done because the run was drained
-  std::int64_t from_cache = 0;   ///< of those committed, found on this machine
   int worker_starts = 0;
+  std::int64_t from_cache = 0;  ///< of those committed, found on this machine
 };
 
 /// Frames go to workers one at a time; a worker that dies, hangs, answers nonsense or writes a bad

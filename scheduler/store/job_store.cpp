@@ -1,5 +1,6 @@
 #include "store/job_store.h"
 
+#include "base/sha256.h"
 #include "store/job_store_database.h"
 
 namespace seedframe {
@@ -10,7 +11,7 @@ using sqlite::Statement;
 constexpr int kVersion = 4;
 
 constexpr const char* kSchema = R"sql(
-CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL, sha256 TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE frames (
   frame INTEGER PRIMARY KEY,
   scene INTEGER NOT NULL,
@@ -100,9 +101,8 @@ Result<JobStore> JobStore::open(const std::filesystem::path& path) {
 
 Status JobStore::set_meta(const std::string& key, const std::string& value) {
   Statement insert(database_->connection,
-                   "INSERT INTO meta VALUES (?, ?) ON CONFLICT (key) DO UPDATE SET value = "
-                   "excluded.value");
-  return insert.bind(1, key).bind(2, value).run();
+                   "INSERT OR REPLACE INTO meta (key, value, sha256) VALUES (?, ?, ?)");
+  return insert.bind(1, key).bind(2, value).bind(3, sha256_hex(value)).run();
 }
 
 Status JobStore::add_frames(const std::function<Result<std::optional<FrameRow>>()>& next) {

@@ -114,10 +114,16 @@ const char* to_string(AttemptOutcome outcome) {
 }
 
 Result<std::string> JobStore::meta(const std::string& key) const {
-  Statement select(database_->connection, "SELECT value FROM meta WHERE key = ?");
-  std::string value;
-  if (select.bind(1, key).step()) value = select.text(0);
+  Statement select(database_->connection, "SELECT value, sha256 FROM meta WHERE key = ?");
+  const bool found = select.bind(1, key).step();
+  std::string value = found ? select.text(0) : std::string();
+  // Of all that is in here, nothing else would notice if the disk altered these.
+  const bool whole = !found || select.text(1) == sha256_hex(value);
   if (Status done = select.status(); !done) return forward_error(done);
+  if (!whole) {
+    return fail(ErrorKind::kCorrupt, "{} is damaged: its '{}' is not what was written there",
+                database_->connection.path().string(), key);
+  }
   return value;
 }
 

@@ -286,7 +286,8 @@ TEST_F(FaultsTest, WhatAFrameWasMadeWithIsToldAndAChangeOfItToo) {
 
 TEST_F(FaultsTest, AWorkerThatCannotKeepThePinEndsTheRunAndChargesNoFrame) {
   const Outcome outcome = run({"submit", "faults.yaml", "-o", "c", "--blender", kFakeBlender,
-                               "--set", "determinism={mode: portable, isa: avx}"});
+                               "--set", "determinism={mode: portable, isa: avx}"},
+                              {R"(SEEDFRAME_FAKE={"kernel": "avx2"})"});
   EXPECT_EQ(outcome.exit_code, 4) << outcome.errors;
   EXPECT_THAT(outcome.errors,
               HasSubstr("Cycles was to use its kernel avx, and on this machine it uses avx2"));

@@ -115,7 +115,8 @@ class Damager:
 
 def damages(data):
     """(description, damaged bytes) of a file."""
-    for length in range(len(data)):
+    last = len(data.rstrip(b"\n"))  # a text without its last line feed means the same
+    for length in range(last):
         if length < DENSE or length % STEP == 0:
             yield f"cut off at {length}", data[:length]
     for start in range(0, len(data), STEP):
