@@ -14,8 +14,10 @@ namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kFrame = 3;  ///< the one that is compared
+constexpr int kRepetitions = 3;  ///< of conditions whose outcome may be chance
+constexpr int kFrame = 3;        ///< the one that is compared
 constexpr int kMostId = 3;
+constexpr const char* kMadeWith = "made_with.txt";
 constexpr auto kLongest = std::chrono::minutes(30);
 
 Json setting_json(const StudySetting& setting) {
@@ -52,6 +54,7 @@ Json plan_of(const StudySetting& setting, const Study::Tools& tools) {
   }
   return {{"persistent_data", setting.persistent_data},
           {"cpus", setting.one_cpu ? Json(allowed_cpus()) : Json()},
+          {"made_with", (tools.scratch / kMadeWith).string()},
           {"renders", renders}};
 }
 
@@ -141,7 +144,6 @@ const std::vector<std::string>& study_scenes() {
 }
 
 std::vector<StudyCondition> study_conditions() {
-  constexpr int kRepetitions = 3;
   const StudySetting plain;
   std::vector<StudyCondition> conditions;
   const auto add = [&](const std::string& name, const StudySetting& reference, auto change,
@@ -164,6 +166,11 @@ std::vector<StudyCondition> study_conditions() {
         s.one_cpu = false;
       },
       kRepetitions);
+  StudySetting usual;
+  usual.threads = 2;
+  usual.one_cpu = false;
+  add(
+      "the same, again", usual, [](StudySetting&) {}, kRepetitions);
   add("persistent data", plain, [](StudySetting& s) { s.persistent_data = true; });
   add("persistent data, after other frames", plain, [](StudySetting& s) {
     s.persistent_data = true;
@@ -208,7 +215,12 @@ std::vector<StudyCondition> sample_conditions(int most) {
     StudyCondition kernels{fmt::format("kernels for AVX, {} samples", samples),
                            with_samples(samples), with_samples(samples), 1};
     kernels.setting.kernels = kernels_of(Isa::kAvx);
+    StudyCondition usual{fmt::format("2 threads, started on all CPUs, {} samples", samples),
+                         with_samples(samples), with_samples(samples), kRepetitions};
+    usual.setting.threads = 2;
+    usual.setting.one_cpu = false;
     conditions.push_back(std::move(threads));
+    conditions.push_back(std::move(usual));
     conditions.push_back(std::move(kernels));
   }
   return conditions;
@@ -243,6 +255,8 @@ Result<StudyRow> Study::measure(const StudyCondition& condition) {
   }
   return row;
 }
+
+Result<std::string> Study::made_with() const { return read_file(tools_.scratch / kMadeWith); }
 
 Result<const Study::Pictures*> Study::reference(const StudySetting& setting) {
   const std::string key = canonical_json(setting_json(setting));

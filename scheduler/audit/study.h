@@ -81,6 +81,8 @@ class Study {
 
   /// A setting that several conditions need is rendered once. kEnvironment errors: Blender failed.
   Result<StudyRow> measure(const StudyCondition& condition);
+  /// "Blender 3.4.1, Cycles' kernel avx2, Embree's avx512, 2 CPUs", of the last rendering.
+  Result<std::string> made_with() const;
 
  private:
   struct Picture {

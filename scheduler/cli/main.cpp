@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
   seedframe::add_check_verb(app, on_selected);
   seedframe::add_asset_verb(app, on_selected);
   seedframe::add_audit_verb(app, on_selected);
+  seedframe::add_bench_verb(app, on_selected);
   seedframe::add_compare_verb(app, on_selected);
   seedframe::add_doctor_verb(app, on_selected);
   app.footer("Example: seedframe submit configs/parts.yaml");

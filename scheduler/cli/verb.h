@@ -20,6 +20,7 @@ void add_export_verb(CLI::App& app, const OnSelected& on_selected);
 void add_check_verb(CLI::App& app, const OnSelected& on_selected);
 void add_asset_verb(CLI::App& app, const OnSelected& on_selected);
 void add_audit_verb(CLI::App& app, const OnSelected& on_selected);
+void add_bench_verb(CLI::App& app, const OnSelected& on_selected);
 void add_compare_verb(CLI::App& app, const OnSelected& on_selected);
 void add_doctor_verb(CLI::App& app, const OnSelected& on_selected);
 
