@@ -24,9 +24,9 @@ Result<Conditions> search(const Conditions& fixed, const Conditions& candidates,
     if (*flipped) return search(fixed, half, flips);
   }
   // Only together: some of each half, the other half given.
-  const Result<Conditions> of_left = search(both(fixed, right), left, flips);
+  Result<Conditions> of_left = search(both(fixed, right), left, flips);
   if (!of_left) return of_left;
-  const Result<Conditions> of_right = search(both(fixed, *of_left), right, flips);
+  Result<Conditions> of_right = search(both(fixed, *of_left), right, flips);
   if (!of_right) return of_right;
   return both(*of_left, *of_right);
 }

@@ -7,6 +7,7 @@
 #include <OpenColorIO/OpenColorIO.h>
 #include <OpenEXR/OpenEXRConfig.h>
 #include <draco/core/draco_version.h>
+#include <fmt/format.h>
 #include <openssl/crypto.h>
 #include <png.h>
 #include <sqlite3.h>

@@ -14,7 +14,7 @@ std::filesystem::path cache_folder() {
     const char* text = std::getenv(name);
     return std::filesystem::path(text != nullptr ? text : "");
   };
-  const std::filesystem::path own = value("SEEDFRAME_CACHE");
+  std::filesystem::path own = value("SEEDFRAME_CACHE");
   if (own == "off") return {};
   if (!own.empty()) return own;
   const std::filesystem::path users = value("XDG_CACHE_HOME");
