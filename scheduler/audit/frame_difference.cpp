@@ -143,6 +143,8 @@ std::string describe(const FrameDifference& difference) {
     std::string text = fmt::format("{} {} of {} pixels", pass, each.differing, each.pixels);
     if (pass == "image") {
       text += fmt::format(", at most {} of 255, RMS {:.2g}", each.max, each.rms);
+    } else if (pass == "normal") {  // near zero, units in the last place say nothing
+      text += fmt::format(", at most {:.2g}, RMS {:.2g}", each.max, each.rms);
     } else if (pass != "index") {
       text += fmt::format(", at most {:.2g} or {} units in the last place, RMS {:.2g}", each.max,
                           each.max_ulp, each.rms);

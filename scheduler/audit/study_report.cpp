@@ -135,19 +135,22 @@ Json rows_json(const std::vector<StudyRow>& rows) {
 /// One panel of the plot: shares over samples, a line for each scene.
 class Panel {
  public:
-  Panel(double left, const char* title, std::vector<int> samples)
-      : left_(left), title_(title), samples_(std::move(samples)) {}
+  /// `limit` is the share at the top.
+  Panel(double left, const char* title, std::vector<int> samples, double limit)
+      : left_(left), title_(title), samples_(std::move(samples)), limit_(limit) {}
 
   std::string frame() const {
     std::string text = fmt::format(
         "<text x='{}' y='28' class='title'>{}</text>\n"
         "<rect x='{}' y='{}' width='{}' height='{}' class='frame'/>\n",
         left_, title_, left_, kTop, kWidth, kHeight);
-    for (const int share : {0, 25, 50, 75, 100}) {
-      text += fmt::format("<text x='{}' y='{:.0f}' class='y'>{} %</text>\n", left_ - 6,
-                          y(share / 100.0) + 4, share);
+    constexpr int kTicks = 4;
+    for (int tick = 0; tick <= kTicks; ++tick) {
+      const double share = limit_ * tick / kTicks;
+      text += fmt::format("<text x='{}' y='{:.0f}' class='y'>{:.3g} %</text>\n", left_ - 6,
+                          y(share) + 4, 100.0 * share);
       text += fmt::format("<line x1='{}' x2='{}' y1='{:.0f}' y2='{:.0f}' class='grid'/>\n", left_,
-                          left_ + kWidth, y(share / 100.0), y(share / 100.0));
+                          left_ + kWidth, y(share), y(share));
     }
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       text += fmt::format("<text x='{:.0f}' y='{}' class='x'>{}</text>\n", x(i),
@@ -171,12 +174,24 @@ class Panel {
     const auto last = static_cast<double>(std::max<std::size_t>(1, samples_.size() - 1));
     return left_ + kWidth * static_cast<double>(i) / last;
   }
-  static double y(double share) { return kTop + kHeight * (1.0 - share); }
+  double y(double share) const { return kTop + kHeight * (1.0 - share / limit_); }
 
   double left_;
   const char* title_;
   std::vector<int> samples_;
+  double limit_;
 };
+
+/// The next of 1, 2, 4 and 8 % and so on.
+double limit_above(const std::vector<StudyRow>& rows, ImageDifference StudyCell::*which) {
+  double limit = 0.01;
+  for (const StudyRow& row : rows) {
+    for (const StudyCell& cell : row.cells) {
+      while (limit < (cell.*which).differing_share()) limit *= 2.0;
+    }
+  }
+  return std::min(limit, 1.0);
+}
 
 constexpr std::array<const char*, 9> kColors = {"#1f77b4", "#ff7f0e", "#2ca02c",
                                                 "#d62728", "#9467bd", "#8c564b",
@@ -235,8 +250,10 @@ std::string study_plot(const StudyResult& result) {
       "anchor:middle}"
       ".frame{fill:none;stroke:#888}.grid{stroke:#ddd}.line{fill:none;stroke-width:2}</style>\n"
       "<rect width='860' height='344' fill='white'/>\n";
-  const Panel linear(56, "pixels that differ, scene-linear half floats", samples);
-  const Panel display(424, "pixels that differ, 8 bits", samples);
+  const Panel linear(56, "pixels that differ, scene-linear half floats", samples,
+                     limit_above(rows, &StudyCell::linear));
+  const Panel display(424, "pixels that differ, 8 bits", samples,
+                      limit_above(rows, &StudyCell::display));
   text += linear.frame() + display.frame();
   for (std::size_t scene = 0; scene < study_scenes().size(); ++scene) {
     std::vector<double> shares;
