@@ -58,7 +58,7 @@ TEST(WorkerConditions, AWorkerThatCannotKeepThemIsRefused) {
   const Status old = check_worker(pinned_to(Isa::kAvx2), worker_with("avx", "avx"));
   ASSERT_FALSE(old);
   EXPECT_EQ(old.error().kind, ErrorKind::kEnvironment);
-  EXPECT_THAT(old.error().message, HasSubstr("kernel avx2, and this machine uses avx"));
+  EXPECT_THAT(old.error().message, HasSubstr("kernel avx2, and on this machine it uses avx"));
 
   const Status silent = check_worker(pinned_to(Isa::kAvx2), worker_with("avx2", ""));
   ASSERT_FALSE(silent);
