@@ -88,7 +88,7 @@ class Program:
         self.can_fail = self.run("--version", faults={"no-such": "key"}).code == BAD_PLAN
 
     def environment(self, faults=None, fake=None):
-        environment = {**os.environ, "SEEDFRAME_HOME": str(HOME), judge.MARKER: str(self.folder)}
+        environment = {**os.environ, "SEEDFRAME_HOME": str(HOME), "SEEDFRAME_CACHE": "off", judge.MARKER: str(self.folder)}
         if fake:
             environment["SEEDFRAME_FAKE"] = json.dumps(fake)
         if faults:

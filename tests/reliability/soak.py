@@ -82,7 +82,7 @@ class Campaign:
         begin = time.monotonic()
         process = subprocess.Popen([str(options.build.resolve() / "seedframe"), "submit", str(config), "-o", config.stem] + more,
                                    cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                                   env={**os.environ, "SEEDFRAME_HOME": str(HOME)}, text=True)
+                                   env={**os.environ, "SEEDFRAME_HOME": str(HOME), "SEEDFRAME_CACHE": "off"}, text=True)
         self.memory, self.worker_memory, self.cpu = watch(process)
         output = process.communicate()[0]
         self.wall = time.monotonic() - begin
