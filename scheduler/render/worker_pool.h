@@ -60,9 +60,9 @@ class RenderClient {
  public:
   virtual ~RenderClient() = default;
 
-  /// May be called some time before started, and again for the same job if that never came. Nothing:
-  /// no worker is needed, started is not called, and the verdict comes as after rendered. A
-  /// kEnvironment or kExhausted error ends the run; any other fails the frame for good.
+  /// May be called some time before started, and again for the same job if that never came.
+  /// Nothing: no worker is needed, started is not called, and the verdict comes as after rendered.
+  /// A kEnvironment or kExhausted error ends the run; any other fails the frame for good.
   virtual Result<std::optional<RenderRequest>> request(const FrameJob& job) = 0;
   virtual void started(const FrameJob& job, int worker) = 0;
   /// The worker says that the file is written. Hand it to post-processing, which must answer with

@@ -26,6 +26,6 @@ begin, cpu_begin = time.monotonic(), time.process_time()
 for spec_path, output in job["frames"]:
     spec = json.loads(pathlib.Path(spec_path).read_text(encoding="utf-8"))
     builder.build(spec, job["meshes"], {})
-    renderer.render(spec["render"], output)
+    renderer.render(spec["render"], output, "bare loop")
 times = {"begin": begin, "end": time.monotonic(), "cpu_s": time.process_time() - cpu_begin}
 print("bare-loop " + json.dumps(times), flush=True)
