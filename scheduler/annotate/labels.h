@@ -11,9 +11,9 @@
 
 #include "base/canonical_json.h"
 #include "base/error.h"
-#include "geometry/ray_scene.h"
 #include "image/image.h"
-#include "scene/frame_spec.h"
+#include "rays/ray_scene.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "base/campaign_files.h"
 #include "base/files.h"
+#include "frames/campaign_files.h"
 #include "image/pass_reader.h"
 #include "image/png_file.h"
 

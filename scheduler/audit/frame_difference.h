@@ -7,7 +7,7 @@
 
 #include "audit/grade.h"
 #include "base/error.h"
-#include "base/manifest.h"
+#include "frames/manifest.h"
 
 namespace seedframe {
 

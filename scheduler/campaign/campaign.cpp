@@ -8,8 +8,8 @@
 
 #include "base/clock.h"
 #include "base/files.h"
-#include "campaign/frame_fingerprint.h"
 #include "campaign/input_files.h"
+#include "frames/frame_fingerprint.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;

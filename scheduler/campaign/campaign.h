@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/campaign_files.h"
 #include "base/error.h"
-#include "base/manifest.h"
 #include "campaign/campaign_lock.h"
 #include "campaign/prepared_campaign.h"
+#include "frames/campaign_files.h"
+#include "frames/manifest.h"
 #include "render/frame_job.h"
 #include "store/job_store.h"
 

@@ -1,8 +1,8 @@
 #include "campaign/frame_cache.h"
 
-#include "base/campaign_files.h"
 #include "base/files.h"
 #include "base/sha256.h"
+#include "frames/campaign_files.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -37,10 +37,11 @@ Status link_or_copy(const fs::path& from, const fs::path& to) {
 std::string cache_key(const Json& provenance, const CampaignConfig& config) {
   Json made_with = provenance;
   made_with.erase("threads");
+  const TwinCheck& check = config.labels.check;
   return sha256_hex(canonical_json(Json{
       {"made_with", made_with},
       {"categories", config.categories},
-      {"check", {config.labels.check, config.labels.tolerance, config.labels.edge_tolerance}}}));
+      {"check", {check.wanted, check.tolerance.inside_share, check.tolerance.outline_share}}}));
 }
 
 Result<Manifest> link_frame(const fs::path& committed, const std::string& frame_id,

@@ -10,8 +10,8 @@
 
 #include "base/canonical_json.h"
 #include "base/error.h"
-#include "base/manifest.h"
 #include "config/campaign_config.h"
+#include "frames/manifest.h"
 #include "store/sqlite.h"
 
 namespace seedframe {

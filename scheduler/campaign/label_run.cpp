@@ -13,7 +13,7 @@ LabelRun::LabelRun(Campaign& campaign, PreparedCampaign& prepared, Provenance& p
       provenance_(provenance),
       observer_(observer),
       frames_at_once_(options.workers),
-      finisher_(prepared.config, options.threads),
+      finisher_(prepared.config.categories, prepared.config.labels.check, options.threads),
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),

@@ -10,9 +10,9 @@
 #include "campaign/campaign.h"
 #include "campaign/campaign_run.h"
 #include "campaign/finish_queue.h"
-#include "campaign/frame_finisher.h"
 #include "campaign/provenance.h"
 #include "campaign/store_writer.h"
+#include "frames/frame_finisher.h"
 
 namespace seedframe {
 

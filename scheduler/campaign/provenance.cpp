@@ -14,9 +14,9 @@
 
 #include "annotate/labels.h"
 #include "base/files.h"
-#include "base/manifest.h"
 #include "base/sha256.h"
-#include "geometry/ray_mesh.h"
+#include "frames/manifest.h"
+#include "rays/ray_mesh.h"
 
 namespace seedframe {
 namespace {

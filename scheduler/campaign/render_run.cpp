@@ -52,10 +52,6 @@ PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) 
   return pool;
 }
 
-ViewSettings view_settings(const ImageConfig& image) {
-  return {image.display, image.view, image.look, image.exposure_stops, image.gamma};
-}
-
 }  // namespace
 
 Result<ColorManagement> load_color_management(const CampaignConfig& config,
@@ -66,7 +62,7 @@ Result<ColorManagement> load_color_management(const CampaignConfig& config,
   if (!path) return forward_error(path);
   Result<ColorManagement> color = ColorManagement::load(*path);
   if (!color) return color;
-  if (Status known = color->check(view_settings(config.image)); !known) {
+  if (Status known = color->check(config.image.settings); !known) {
     return fail(ErrorKind::kInput, "{}: {}",
                 config.image.place.file.empty() ? "image" : config.image.place.text(),
                 known.error().message);
@@ -84,7 +80,8 @@ RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, const Color
       room_needed_(room_for_attempts(options)),
       cache_(FrameCache::open(options.cache)),
       take_from_cache_(options.take_from_cache),
-      finisher_(prepared.config, 1),  // the cores are the workers'
+      finisher_(prepared.config.categories, prepared.config.labels.check,
+                1),  // the cores are the workers'
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),
@@ -200,7 +197,7 @@ void RenderRun::rendered(const FrameJob& job, const RenderTimings& timings, int)
 
 void RenderRun::load_view_tables() {
   // An error comes again with the first frame.
-  (void)color_.apply(Image<float>(1, 1, 4), view_settings(prepared_.config.image));
+  (void)color_.apply(Image<float>(1, 1, 4), prepared_.config.image.settings);
 }
 
 void RenderRun::finish(const FrameJob& job, const RenderTimings& timings, const FinishTask& task) {

@@ -14,9 +14,9 @@
 #include "campaign/campaign_run.h"
 #include "campaign/finish_queue.h"
 #include "campaign/frame_cache.h"
-#include "campaign/frame_finisher.h"
 #include "campaign/provenance.h"
 #include "campaign/store_writer.h"
+#include "frames/frame_finisher.h"
 #include "image/color_management.h"
 
 namespace seedframe {

@@ -6,7 +6,7 @@
 #include <pthread.h>
 
 #include "base/files.h"
-#include "campaign/frame_fingerprint.h"
+#include "frames/frame_fingerprint.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;

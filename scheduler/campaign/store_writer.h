@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/campaign_files.h"
 #include "base/error.h"
+#include "frames/campaign_files.h"
 #include "render/frame_job.h"
 #include "store/job_store.h"
 

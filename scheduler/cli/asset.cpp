@@ -7,6 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "assets/asset_check.h"
+#include "assets/asset_files.h"
+#include "assets/asset_import.h"
+#include "assets/asset_library.h"
+#include "assets/thumbnail.h"
 #include "base/canonical_json.h"
 #include "base/files.h"
 #include "cli/asset_keypoints.h"
@@ -14,12 +19,7 @@
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
-#include "geometry/asset_check.h"
-#include "geometry/asset_files.h"
-#include "geometry/asset_import.h"
-#include "geometry/asset_library.h"
 #include "image/png_file.h"
-#include "twin/thumbnail.h"
 
 namespace seedframe {
 namespace {

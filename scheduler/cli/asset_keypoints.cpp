@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "assets/asset_files.h"
+#include "assets/asset_library.h"
 #include "base/nearest_name.h"
 #include "cli/exit_code.h"
-#include "geometry/asset_files.h"
-#include "geometry/asset_library.h"
 
 namespace seedframe {
 namespace {

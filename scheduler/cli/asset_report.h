@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
+#include "assets/asset_files.h"
+#include "assets/asset_import.h"
 #include "base/canonical_json.h"
-#include "geometry/asset_files.h"
-#include "geometry/asset_import.h"
 
 namespace seedframe {
 

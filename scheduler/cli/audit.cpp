@@ -22,6 +22,7 @@
 #include "export/export_index.h"
 #include "export/export_run.h"
 #include "export/verify.h"
+#include "formats/formats.h"
 
 namespace seedframe {
 namespace {
@@ -72,7 +73,8 @@ Result<std::vector<AuditedExport>> audit_exports(const Campaign& campaign,
     if (!std::filesystem::exists(folder / kMarkerFile, error)) continue;
     AuditedExport& each = exports.emplace_back();
     each.format = format.name;
-    const Result<VerifySummary> summary = verify_export(dataset->dataset, folder, threads);
+    const Result<VerifySummary> summary =
+        verify_export(dataset->dataset, export_formats(), folder, threads);
     if (summary) {
       each.frames = summary->frames;
       each.differences = summary->differences;

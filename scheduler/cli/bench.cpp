@@ -5,13 +5,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include "audit/study.h"
-#include "audit/study_report.h"
 #include "base/files.h"
 #include "campaign/color_config.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
+#include "study/study.h"
+#include "study/study_report.h"
 
 namespace seedframe {
 namespace {

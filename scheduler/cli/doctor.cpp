@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "assets/asset_library.h"
 #include "base/sha256.h"
 #include "campaign/color_config.h"
 #include "campaign/prepared_campaign.h"
@@ -13,7 +14,6 @@
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
-#include "geometry/asset_library.h"
 #include "image/color_management.h"
 #include "render/blender_info.h"
 #include "render/sandbox.h"

@@ -19,6 +19,7 @@
 #include "export/export_index.h"
 #include "export/export_run.h"
 #include "export/verify.h"
+#include "formats/formats.h"
 
 namespace seedframe {
 namespace {
@@ -129,7 +130,7 @@ void print_warnings(const std::vector<ExportSummary>& summaries) {
 Result<std::vector<const FormatEntry*>> find_formats(const std::vector<std::string>& names) {
   std::vector<const FormatEntry*> formats;
   for (const std::string& name : names) {
-    const auto format = find_export_format(name);
+    const auto format = find_format(export_formats(), name);
     if (!format) return forward_error(format);
     if (std::find(formats.begin(), formats.end(), *format) == formats.end()) {
       formats.push_back(*format);
@@ -160,7 +161,7 @@ int verify_all(const Dataset& dataset, const std::vector<std::filesystem::path>&
                int workers) {
   int code = kExitOk;
   for (const std::filesystem::path& folder : folders) {
-    const Result<VerifySummary> summary = verify_export(dataset, folder, workers);
+    const Result<VerifySummary> summary = verify_export(dataset, export_formats(), folder, workers);
     if (!summary) return report(summary.error());
     fmt::print("{}: {} frames with {} annotations compared with their source, {}\n",
                summary->format, summary->frames, summary->annotations,

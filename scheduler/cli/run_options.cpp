@@ -8,9 +8,9 @@
 
 #include "campaign/render_run.h"
 #include "cli/home.h"
+#include "plan/worker_plan.h"
 #include "render/memory.h"
 #include "render/sandbox.h"
-#include "render/worker_plan.h"
 
 namespace seedframe {
 void add_run_options(CLI::App& verb, RunArguments& arguments) {

@@ -55,11 +55,12 @@ ImageConfig read_image(SectionReader& campaign, Diagnostics& errors) {
   if (!node) return image;
   image.place = node->place();
   SectionReader section(*node, errors);
-  image.display = section.text("display", image.display);
-  image.view = section.text("view", image.view);
-  image.look = section.text("look", image.look);
-  image.exposure_stops = section.constant("exposure_stops", image.exposure_stops);
-  image.gamma = section.positive("gamma", image.gamma);
+  ImageSettings& settings = image.settings;
+  settings.display = section.text("display", settings.display);
+  settings.view = section.text("view", settings.view);
+  settings.look = section.text("look", settings.look);
+  settings.exposure_stops = section.constant("exposure_stops", settings.exposure_stops);
+  settings.gamma = section.positive("gamma", settings.gamma);
   if (const auto ocio = section.find("ocio_config")) {
     image.ocio_config = ocio->named_path(errors);
     std::error_code missing;
@@ -103,9 +104,10 @@ LabelConfig read_labels(SectionReader& root, Diagnostics& errors) {
   if (const auto source = section.find("source")) {
     labels.source = read_label_source(*source, errors);
   }
-  labels.check = section.flag("check", labels.check);
-  labels.tolerance = read_share(section, "tolerance", labels.tolerance);
-  labels.edge_tolerance = read_share(section, "edge_tolerance", labels.edge_tolerance);
+  TwinTolerance& tolerance = labels.check.tolerance;
+  labels.check.wanted = section.flag("check", labels.check.wanted);
+  tolerance.inside_share = read_share(section, "tolerance", tolerance.inside_share);
+  tolerance.outline_share = read_share(section, "edge_tolerance", tolerance.outline_share);
   section.refuse_other_keys();
   return labels;
 }

@@ -12,6 +12,9 @@
 
 #include "base/isa.h"
 #include "config/values.h"
+#include "spec/frame_spec.h"
+#include "spec/image_settings.h"
+#include "spec/twin_check.h"
 
 namespace seedframe {
 
@@ -82,24 +85,14 @@ struct DeterminismConfig {
   Isa isa = Isa::kAvx2;  ///< that a portable campaign is rendered with
 };
 
-/// Where labels come from: Blender's index pass, checked against the twin; or the twin alone,
-/// without Blender.
-enum class LabelSource { kIndexPass, kTwin };
-
 struct LabelConfig {
   LabelSource source = LabelSource::kIndexPass;
-  bool check = true;            ///< compare each rendered frame with its twin
-  double tolerance = 1e-4;      ///< share of all pixels that may differ, edges apart
-  double edge_tolerance = 0.1;  ///< share of an instance's outline that may
+  TwinCheck check;
   Place place;
 };
 
 struct ImageConfig {
-  std::string display = "sRGB";
-  std::string view = "Filmic";
-  std::string look = "None";
-  double exposure_stops = 0.0;
-  double gamma = 1.0;
+  ImageSettings settings;
   std::optional<std::filesystem::path> ocio_config;  ///< none: Blender's own
   Place place;
 };
@@ -128,13 +121,6 @@ struct MaterialShareConfig {
   std::optional<std::vector<std::string>> parametric;  ///< none: all of the library
 };
 using MaterialSource = std::variant<NameSource, MaterialShareConfig>;
-
-/// Kinds of rays that pass through an object as if it were not there.
-struct HiddenFrom {
-  bool camera = false, diffuse = false, glossy = false, transmission = false, shadow = false;
-
-  bool operator==(const HiddenFrom&) const = default;
-};
 
 /// Dropped at random places on the ground so that the copies' footprints keep apart.
 struct ScatterConfig {

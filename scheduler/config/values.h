@@ -15,7 +15,7 @@ namespace seedframe {
 
 struct Distribution;
 
-/// A text such as "0.5 * spread + 10cm"; scene/formula.h knows its syntax.
+/// A text such as "0.5 * spread + 10cm"; formula/formula.h knows its syntax.
 struct Formula {
   std::string text;
 };

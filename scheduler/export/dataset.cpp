@@ -4,9 +4,9 @@
 #include <unordered_map>
 
 #include "annotate/extents.h"
-#include "base/campaign_files.h"
 #include "base/files.h"
 #include "base/sha256.h"
+#include "frames/campaign_files.h"
 #include "image/exr_file.h"
 #include "image/png_file.h"
 

@@ -11,7 +11,7 @@
 
 #include "annotate/labels.h"
 #include "base/error.h"
-#include "base/manifest.h"
+#include "frames/manifest.h"
 #include "image/image.h"
 #include "scene/offered_assets.h"
 
@@ -20,7 +20,7 @@ namespace seedframe {
 struct DatasetFrame {
   std::int64_t index = 0;  ///< over the whole campaign
   int scene = 0;
-  std::filesystem::path folder;  ///< holds what base/campaign_files.h names
+  std::filesystem::path folder;  ///< holds what frames/campaign_files.h names
   std::string frame_id;
 };
 

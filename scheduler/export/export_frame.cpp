@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "annotate/rle.h"
-#include "base/campaign_files.h"
+#include "frames/campaign_files.h"
 
 namespace seedframe {
 

@@ -5,7 +5,6 @@
 #include <deque>
 #include <mutex>
 
-#include "base/campaign_files.h"
 #include "base/files.h"
 #include "base/sha256.h"
 #include "export/document.h"
@@ -13,6 +12,7 @@
 #include "export/export_index.h"
 #include "export/frame_pipeline.h"
 #include "export/split.h"
+#include "frames/campaign_files.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;

@@ -10,7 +10,6 @@
 #include "export/dataset.h"
 #include "export/export_options.h"
 #include "export/format.h"
-#include "export/formats.h"
 
 namespace seedframe {
 

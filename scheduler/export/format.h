@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -62,5 +63,17 @@ class ExportFormat {
     return {};
   }
 };
+
+struct FormatEntry {
+  const char* name;
+  const char* description;
+  /// kInput errors for a dataset or options that the format cannot hold.
+  Result<std::unique_ptr<ExportFormat>> (*make)(const Dataset&, const ExportOptions&);
+};
+
+using FormatList = std::vector<FormatEntry>;
+
+/// A kInput error with "did you mean" for a name that none of them has.
+Result<const FormatEntry*> find_format(const FormatList& formats, std::string_view name);
 
 }  // namespace seedframe

@@ -5,13 +5,12 @@
 #include <mutex>
 #include <set>
 
-#include "base/campaign_files.h"
 #include "base/files.h"
 #include "export/earlier_export.h"
 #include "export/export_index.h"
-#include "export/formats.h"
 #include "export/frame_pipeline.h"
 #include "export/split.h"
+#include "frames/campaign_files.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -225,10 +224,11 @@ class Verification {
 
 }  // namespace
 
-Result<VerifySummary> verify_export(const Dataset& dataset, const fs::path& folder, int workers) {
+Result<VerifySummary> verify_export(const Dataset& dataset, const FormatList& formats,
+                                    const fs::path& folder, int workers) {
   const auto marker = read_marker(folder);
   if (!marker) return forward_error(marker);
-  const auto entry = find_export_format(marker->format);
+  const auto entry = find_format(formats, marker->format);
   if (!entry) return forward_error(entry);
   const auto format = (*entry)->make(dataset, marker->options);
   if (!format) return forward_error(format);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "export/dataset.h"
+#include "export/format.h"
 
 namespace seedframe {
 
@@ -19,12 +20,12 @@ struct VerifySummary {
   std::vector<std::string> first_differences;  ///< at most twenty, each names its frame or file
 };
 
-/// Decodes every frame's part of the export in `folder`, with the options that it was made with,
-/// and compares masks, boxes, classes and images with the source. What the export has beside that
-/// is a difference too: files that belong to nothing, entries that no frame has, missing frames.
-/// kCorrupt errors for a folder that is not an export, or a source frame that is not as it was
-/// written.
-Result<VerifySummary> verify_export(const Dataset& dataset, const std::filesystem::path& folder,
-                                    int workers);
+/// Decodes every frame's part of the export in `folder`, by the one of `formats` that it was made
+/// with, with the same options, and compares masks, boxes, classes and images with the source. What
+/// the export has beside that is a difference too: files that belong to nothing, entries that no
+/// frame has, missing frames. kCorrupt errors for a folder that is not an export, or a source frame
+/// that is not as it was written.
+Result<VerifySummary> verify_export(const Dataset& dataset, const FormatList& formats,
+                                    const std::filesystem::path& folder, int workers);
 
 }  // namespace seedframe

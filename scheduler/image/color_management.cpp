@@ -21,7 +21,7 @@ namespace {
 constexpr int kRgb = 3;
 constexpr int kRgba = 4;
 
-bool has_look(const ViewSettings& settings) {
+bool has_look(const ImageSettings& settings) {
   return !settings.look.empty() && settings.look != "None";
 }
 
@@ -58,7 +58,7 @@ Status check_name(const char* kind, const std::string& name,
 
 /// The look goes from scene-linear to its own space; the view then starts from there.
 OCIO::ConstCPUProcessorRcPtr look_and_view(const OCIO::ConstConfigRcPtr& config,
-                                           const ViewSettings& settings) {
+                                           const ImageSettings& settings) {
   auto group = OCIO::GroupTransform::Create();
   std::string space = OCIO::ROLE_SCENE_LINEAR;
   if (has_look(settings)) {
@@ -111,7 +111,7 @@ struct ColorManagement::State {
 
   /// Only the tables of look and view are worth keeping (tens of ms). Exposure and gamma may differ
   /// in every frame, so they stay out of the cache: it cannot outgrow the names in the config.
-  OCIO::ConstCPUProcessorRcPtr view_processor(const ViewSettings& settings) {
+  OCIO::ConstCPUProcessorRcPtr view_processor(const ImageSettings& settings) {
     const Key key{settings.display, settings.view, has_look(settings) ? settings.look : ""};
     const std::lock_guard lock(mutex);
     OCIO::ConstCPUProcessorRcPtr& cached = processors[key];
@@ -156,7 +156,7 @@ Result<ColorManagement> ColorManagement::load(const std::filesystem::path& ocio_
   return ColorManagement(std::move(state));
 }
 
-Status ColorManagement::check(const ViewSettings& settings) const {
+Status ColorManagement::check(const ImageSettings& settings) const {
   const Names& names = state_->names;
   if (Status known = check_name("display", settings.display, names.displays); !known) return known;
   const std::vector<std::string>& views = names.views.at(settings.display);
@@ -175,7 +175,7 @@ Status ColorManagement::check(const ViewSettings& settings) const {
 }
 
 Result<Image<std::uint8_t>> ColorManagement::apply(const Image<float>& combined,
-                                                   const ViewSettings& settings) const {
+                                                   const ImageSettings& settings) const {
   assert(combined.channels == kRgba);
   if (Status checked = check(settings); !checked) return forward_error(checked);
   Image<std::uint8_t> picture(combined.width, combined.height, kRgb);

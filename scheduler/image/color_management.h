@@ -9,18 +9,9 @@
 
 #include "base/error.h"
 #include "image/image.h"
+#include "spec/image_settings.h"
 
 namespace seedframe {
-
-/// Names as in the OCIO config; the exposure multiplies by 2^stops before, the gamma applies after
-/// the view.
-struct ViewSettings {
-  std::string display;
-  std::string view;
-  std::string look;  ///< "None" or empty for none
-  double exposure_stops = 0.0;
-  double gamma = 1.0;
-};
 
 /// An OCIO config, loaded once. Thread-safe. The first picture of a display, view and look builds
 /// their tables (up to 50 ms); exposure and gamma may then change from picture to picture for free.
@@ -34,12 +25,12 @@ class ColorManagement {
 
   /// kInput errors: a display, view or look that the config does not have, with "did you mean"; an
   /// exposure or gamma that is no usable number.
-  Status check(const ViewSettings& settings) const;
+  Status check(const ImageSettings& settings) const;
 
   /// RGBA scene-linear float to 8-bit RGB, as Blender would save an opaque film without dithering:
   /// exposure, look, view, gamma, then round(255 v). Alpha is ignored. Errors: those of check().
   Result<Image<std::uint8_t>> apply(const Image<float>& combined,
-                                    const ViewSettings& settings) const;
+                                    const ImageSettings& settings) const;
 
   /// SHA-256 of the config file; the tables that it names beside it are not part of it.
   const std::string& config_hash() const;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "config/campaign_config.h"
-#include "scene/draw.h"
+#include "draws/draw.h"
+#include "draws/variables.h"
 #include "scene/material_library.h"
-#include "scene/variables.h"
 
 namespace seedframe {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "geometry/mesh_buffer.h"
+#include "mesh/mesh_buffer.h"
 
 namespace seedframe {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/collision.h"
-#include "geometry/ray_scene.h"
+#include "mesh/collision.h"
+#include "rays/ray_scene.h"
 #include "scene/compiled_config.h"
 #include "scene/frame_draft.h"
 

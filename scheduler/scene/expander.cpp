@@ -121,8 +121,7 @@ FrameDraft SceneExpander::Program::draft_frame(EvaluationContext& context) {
   FrameSpec& spec = draft.spec;
   evaluate_variables(context);
   spec.render = render_settings(context);
-  spec.image = {config_.image.display, config_.image.view, config_.image.look,
-                config_.image.exposure_stops, config_.image.gamma};
+  spec.image = config_.image.settings;
   spec.labels.source = config_.labels.source;
   if (compiled_.ground) ground_.add(*compiled_.ground, materials_, draft, context);
   placer_.place_all(compiled_, materials_, draft, context);

@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "assets/asset_library.h"
 #include "base/error.h"
 #include "config/campaign_config.h"
-#include "geometry/asset_library.h"
-#include "geometry/mesh_buffer.h"
+#include "draws/draw.h"
+#include "draws/graphs.h"
+#include "mesh/mesh_buffer.h"
 #include "scene/constraints.h"
-#include "scene/draw.h"
-#include "scene/frame_spec.h"
-#include "scene/graphs.h"
 #include "scene/material_library.h"
 #include "scene/offered_assets.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "geometry/asset_library.h"
-#include "scene/draw.h"
-#include "scene/frame_spec.h"
+#include "assets/asset_library.h"
+#include "draws/draw.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/sha256.h"
-#include "geometry/mesh_buffer.h"
-#include "geometry/primitives.h"
+#include "mesh/mesh_buffer.h"
+#include "mesh/primitives.h"
 
 namespace seedframe {
 

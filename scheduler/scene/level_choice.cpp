@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/asset_levels.h"
+#include "assets/asset_levels.h"
 
 namespace seedframe {
 namespace {

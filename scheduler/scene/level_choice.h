@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "geometry/asset_library.h"
-#include "scene/frame_spec.h"
+#include "assets/asset_library.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

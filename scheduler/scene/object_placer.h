@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh_buffer.h"
+#include "mesh/mesh_buffer.h"
 #include "scene/compiled_config.h"
 #include "scene/frame_draft.h"
 #include "scene/material_picker.h"

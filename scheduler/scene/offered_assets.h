@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "assets/asset_library.h"
 #include "base/error.h"
-#include "geometry/asset_library.h"
 #include "scene/compiled_config.h"
 
 namespace seedframe {

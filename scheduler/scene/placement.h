@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/frame_spec.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

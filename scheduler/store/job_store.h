@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "base/dataset_hash.h"
 #include "base/error.h"
-#include "base/twin_tally.h"
+#include "spec/twin_check.h"
+#include "store/dataset_hash.h"
 
 namespace seedframe {
 
@@ -35,7 +35,7 @@ struct FrameRow {
   int attempts = 0;
   int crashes = 0;          ///< of these; a quarantined frame that is asked for again begins anew
   std::string pixel_hash;   ///< of all passes; set when done
-  std::string fingerprint;  ///< of its files (campaign/frame_fingerprint.h); set when done
+  std::string fingerprint;  ///< of its files (frames/frame_fingerprint.h); set when done
   std::string error;        ///< of the last failed attempt; empty when done
   TwinTally twin;           ///< set when done
 };

@@ -5,7 +5,7 @@
 #include <new>
 #include <unordered_map>
 
-#include "geometry/mesh_buffer.h"
+#include "mesh/mesh_buffer.h"
 
 namespace seedframe {
 namespace {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "geometry/mesh_buffer.h"
-#include "geometry/ray_scene.h"
 #include "image/image.h"
-#include "scene/frame_spec.h"
+#include "mesh/mesh_buffer.h"
+#include "rays/ray_scene.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

@@ -5,18 +5,11 @@
 #include <functional>
 #include <string>
 
-#include "base/twin_tally.h"
 #include "image/image.h"
-#include "scene/frame_spec.h"
+#include "spec/frame_spec.h"
+#include "spec/twin_check.h"
 
 namespace seedframe {
-
-struct TwinTolerance {
-  double inside_share = 1e-4;  ///< of all pixels
-  /// Of an instance's outline, and 8 pixels are always allowed: an instance that is a fraction of a
-  /// pixel out of place differs in no other way.
-  double outline_share = 0.1;
-};
 
 struct TwinVerdict {
   TwinTally tally;

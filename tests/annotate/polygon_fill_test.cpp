@@ -4,8 +4,8 @@
 
 #include "annotate/extents.h"
 #include "annotate/polygon_simplify.h"
-#include "coco_decoder.h"
-#include "mask_cases.h"
+#include "tests/annotate/coco_decoder.h"
+#include "tests/annotate/mask_cases.h"
 
 namespace seedframe {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "coco_decoder.h"
-#include "mask_cases.h"
-#include "yolo_decoder.h"
+#include "tests/annotate/coco_decoder.h"
+#include "tests/annotate/mask_cases.h"
+#include "tests/annotate/yolo_decoder.h"
 
 namespace seedframe {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "coco_decoder.h"
-#include "mask_cases.h"
+#include "tests/annotate/coco_decoder.h"
+#include "tests/annotate/mask_cases.h"
 
 namespace seedframe {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "annotate/extents.h"
-#include "mask_cases.h"
+#include "tests/annotate/mask_cases.h"
 
 namespace seedframe {
 namespace {

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 
 #include "base/files.h"
-#include "tests/geometry/scratch_folder.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {

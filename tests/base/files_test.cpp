@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "base/campaign_files.h"
 #include "base/nearest_name.h"
 #include "base/sha256.h"
 
@@ -65,14 +64,6 @@ TEST_F(FilesTest, ErrorsNameTheFileAndTheReason) {
   const auto full = write_file("/dev/full", "x");
   ASSERT_FALSE(full);
   EXPECT_NE(full.error().message.find("No space left"), std::string::npos);
-}
-
-TEST(CampaignFiles, NamesFramesByThousands) {
-  const CampaignFiles files("c");
-  EXPECT_EQ(files.frame(0), "c/frames/000/000000");
-  EXPECT_EQ(files.frame(12345), "c/frames/012/012345");
-  EXPECT_EQ(files.frame(1234567), "c/frames/1234/1234567");
-  EXPECT_NE(files.attempt(5, 1), files.attempt(5, 2));
 }
 
 TEST(Sha256, MatchesFips180) {

@@ -17,10 +17,11 @@
 
 #include "annotate/extents.h"
 #include "annotate/rle.h"
-#include "base/campaign_files.h"
 #include "base/files.h"
 #include "base/sha256.h"
 #include "export/export_run.h"
+#include "formats/formats.h"
+#include "frames/campaign_files.h"
 #include "image/png_file.h"
 
 namespace seedframe {
@@ -134,7 +135,7 @@ int measure_rle(const fs::path& out) {
 int measure_encoding() {
   const Dataset dataset = dataset_of(kCategories);
   const ExportOptions options;
-  const auto coco = (*find_export_format("coco"))->make(dataset, options);
+  const auto coco = (*find_format(export_formats(), "coco"))->make(dataset, options);
   std::vector<std::unique_ptr<ExportFrame>> frames;
   std::vector<std::string> pngs;
   std::vector<std::string> texts;
@@ -222,7 +223,7 @@ int measure_stream(const fs::path& folder, std::int64_t count,
   dataset.has_images = false;
   dataset.frames = [&] { return frames.cursor(count); };
   std::vector<const FormatEntry*> formats;
-  for (const std::string& name : names) formats.push_back(*find_export_format(name));
+  for (const std::string& name : names) formats.push_back(*find_format(export_formats(), name));
   ExportOptions options;
   options.output = folder / "out";
   options.splits = {{"train", 0.8}, {"val", 0.2}};

@@ -13,7 +13,7 @@
 #include "base/files.h"
 #include "base/sha256.h"
 #include "campaign/campaign.h"
-#include "campaign/frame_fingerprint.h"
+#include "frames/frame_fingerprint.h"
 #include "render/schedule.h"
 
 namespace seedframe {

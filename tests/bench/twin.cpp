@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "campaign/prepared_campaign.h"
-#include "tests/geometry/example_meshes.h"
+#include "tests/mesh/example_meshes.h"
 #include "twin/twin_check.h"
 
 namespace seedframe {

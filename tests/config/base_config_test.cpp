@@ -5,7 +5,7 @@
 
 #include "base/files.h"
 #include "config/campaign_config.h"
-#include "tests/geometry/scratch_folder.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {

@@ -23,7 +23,7 @@ TEST(CampaignConfig, TheSmallestConfigHasDefaults) {
   EXPECT_EQ(config->name, "tiny");
   EXPECT_EQ(config->frame_count(), 1);
   EXPECT_EQ(config->render.width, 640);
-  EXPECT_EQ(config->image.view, "Filmic");
+  EXPECT_EQ(config->image.settings.view, "Filmic");
   EXPECT_FALSE(config->ground.has_value());
 }
 
@@ -135,15 +135,15 @@ TEST(CampaignConfig, TheSourceOfLabelsMayStandAlone) {
     return read_campaign_config(kSmallest, "t.yaml", {{"labels", text}})->labels;
   };
   EXPECT_EQ(read_campaign_config(kSmallest, "t.yaml")->labels.source, LabelSource::kIndexPass);
-  EXPECT_TRUE(read_campaign_config(kSmallest, "t.yaml")->labels.check);
+  EXPECT_TRUE(read_campaign_config(kSmallest, "t.yaml")->labels.check.wanted);
   EXPECT_EQ(labels_of("geometry").source, LabelSource::kTwin);
   EXPECT_EQ(labels_of("render").source, LabelSource::kIndexPass);
   const LabelConfig all =
       labels_of("{source: geometry, check: false, tolerance: 0.5, edge_tolerance: 1}");
   EXPECT_EQ(all.source, LabelSource::kTwin);
-  EXPECT_FALSE(all.check);
-  EXPECT_DOUBLE_EQ(all.tolerance, 0.5);
-  EXPECT_DOUBLE_EQ(all.edge_tolerance, 1.0);
+  EXPECT_FALSE(all.check.wanted);
+  EXPECT_DOUBLE_EQ(all.check.tolerance.inside_share, 0.5);
+  EXPECT_DOUBLE_EQ(all.check.tolerance.outline_share, 1.0);
 }
 
 TEST(Overrides, ReplaceAndAddValues) {

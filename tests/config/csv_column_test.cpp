@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "tests/geometry/scratch_folder.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "synthetic_dataset.h"
+#include "tests/export/synthetic_dataset.h"
 
 namespace seedframe {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "synthetic_dataset.h"
+#include "tests/export/synthetic_dataset.h"
 
 namespace seedframe {
 namespace {

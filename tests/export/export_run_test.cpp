@@ -8,7 +8,8 @@
 #include "../annotate/yolo_decoder.h"
 #include "export/export_index.h"
 #include "export/verify.h"
-#include "synthetic_dataset.h"
+#include "formats/formats.h"
+#include "tests/export/synthetic_dataset.h"
 
 namespace seedframe {
 namespace {
@@ -47,7 +48,7 @@ class EveryFormat : public ::testing::TestWithParam<std::string> {
   fs::path output() const { return scratch_.path() / "out"; }
   fs::path folder() const { return output() / GetParam(); }
   VerifySummary verified() {
-    const auto summary = verify_export(campaign_.dataset(), folder(), 2);
+    const auto summary = verify_export(campaign_.dataset(), export_formats(), folder(), 2);
     EXPECT_TRUE(summary) << summary.error().message;
     return summary ? *summary : VerifySummary{};
   }
@@ -403,12 +404,12 @@ TEST(ExportFormats, KnowWhatWasMeant) {
   for (const FormatEntry& format : export_formats()) {
     names.emplace_back(format.name);
     EXPECT_STRNE(format.description, "");
-    const auto found = find_export_format(format.name);
+    const auto found = find_format(export_formats(), format.name);
     ASSERT_TRUE(found);
     EXPECT_EQ(*found, &format);
   }
   EXPECT_EQ(names, kFormats);
-  const auto unknown = find_export_format("yolo-detcet");
+  const auto unknown = find_format(export_formats(), "yolo-detcet");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().kind, ErrorKind::kInput);
   EXPECT_THAT(unknown.error().message, HasSubstr("did you mean 'yolo-detect'"));
@@ -469,7 +470,7 @@ TEST(ExportFormats, TellTheSame) {
   std::vector<std::int64_t> counts;
   std::vector<const FormatEntry*> formats;
   for (const char* name : {"coco", "coco-polygon", "yolo-detect", "yolo-segment"}) {
-    formats.push_back(*find_export_format(name));
+    formats.push_back(*find_format(export_formats(), name));
   }
   const auto summaries = run_export(campaign.dataset(), formats, options);
   ASSERT_TRUE(summaries) << summaries.error().message;

@@ -13,12 +13,13 @@
 
 #include "../annotate/mask_cases.h"
 #include "annotate/rle.h"
-#include "base/campaign_files.h"
 #include "base/canonical_json.h"
 #include "base/files.h"
-#include "base/manifest.h"
 #include "base/sha256.h"
 #include "export/export_run.h"
+#include "formats/formats.h"
+#include "frames/campaign_files.h"
+#include "frames/manifest.h"
 #include "image/png_file.h"
 
 namespace seedframe {
@@ -229,7 +230,7 @@ inline std::vector<InstanceLabel> exported_instances(const Truth& truth, int min
 /// Runs one format; its summary.
 inline Result<ExportSummary> export_one(const Dataset& dataset, const std::string& format,
                                         const ExportOptions& options) {
-  const auto entry = find_export_format(format);
+  const auto entry = find_format(export_formats(), format);
   if (!entry) return forward_error(entry);
   auto summaries = run_export(dataset, {*entry}, options);
   if (!summaries) return forward_error(summaries);

@@ -1,5 +1,5 @@
-#include "geometry/draco_codec.h"
-#include "geometry/mesh_buffer.h"
+#include "mesh/mesh_buffer.h"
+#include "mesh_files/draco_codec.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

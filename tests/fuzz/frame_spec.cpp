@@ -1,4 +1,4 @@
-#include "scene/frame_spec.h"
+#include "spec/frame_spec.h"
 
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"

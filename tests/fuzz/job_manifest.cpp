@@ -1,5 +1,5 @@
 #include "annotate/labels.h"
-#include "base/manifest.h"
+#include "frames/manifest.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

@@ -10,7 +10,7 @@
 
 #include "base/files.h"
 #include "base/sha256.h"
-#include "test_folder.h"
+#include "tests/image/test_folder.h"
 
 namespace seedframe {
 namespace {
@@ -67,7 +67,7 @@ Image<float> pixel(float red, float green, float blue) {
 
 TEST_F(ColorManagementTest, RoundsToTheNearestCodeValueAndClamps) {
   const ColorManagement colors = load();
-  const ViewSettings plain{"screen", "Plain", "None"};
+  const ImageSettings plain{"screen", "Plain", "None"};
   EXPECT_THAT(colors.apply(pixel(0.0F, 0.5F, 1.0F), plain)->values, ElementsAre(0, 128, 255));
   EXPECT_THAT(colors.apply(pixel(-3.0F, 20.0F, 1e10F), plain)->values, ElementsAre(0, 255, 255));
   EXPECT_THAT(colors.apply(pixel(99.49F / 255, 99.51F / 255, 0.999F), plain)->values,
@@ -128,7 +128,7 @@ TEST_F(ColorManagementTest, KeepsTheOrderOfThePixels) {
 
 TEST_F(ColorManagementTest, UnknownNamesGetDidYouMean) {
   const ColorManagement colors = load();
-  const auto message = [&](const ViewSettings& settings) {
+  const auto message = [&](const ImageSettings& settings) {
     const Status status = colors.check(settings);
     EXPECT_FALSE(status);
     return status ? std::string() : status.error().message;

@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "exr_writer.h"
 #include "image/exr_file.h"
 #include "image/exr_metadata.h"
 #include "image/pass_reader.h"
-#include "test_folder.h"
+#include "tests/image/exr_writer.h"
+#include "tests/image/test_folder.h"
 
 namespace seedframe {
 namespace {

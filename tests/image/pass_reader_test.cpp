@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "exr_writer.h"
 #include "image/pixel_hash.h"
-#include "test_folder.h"
+#include "tests/image/exr_writer.h"
+#include "tests/image/test_folder.h"
 
 namespace seedframe {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "test_folder.h"
+#include "tests/image/test_folder.h"
 
 namespace seedframe {
 namespace {

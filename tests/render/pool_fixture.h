@@ -14,7 +14,7 @@
 
 #include "base/canonical_json.h"
 #include "render/worker_pool.h"
-#include "scene/frame_spec.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

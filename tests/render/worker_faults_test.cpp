@@ -1,7 +1,7 @@
 // Everything a worker can do wrong, and what the pool makes of it.
 #include <gmock/gmock.h>
 
-#include "pool_fixture.h"
+#include "tests/render/pool_fixture.h"
 
 namespace seedframe {
 namespace {

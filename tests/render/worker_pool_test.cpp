@@ -9,8 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "pool_fixture.h"
 #include "render/sandbox.h"
+#include "tests/render/pool_fixture.h"
 
 namespace seedframe {
 namespace {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "formula/formula_functions.h"
 #include "scene/expander.h"
-#include "scene/formula_functions.h"
 #include "tests/config/config_page.h"
 
 namespace seedframe {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/sha256.h"
-#include "geometry/mesh_buffer.h"
+#include "mesh/mesh_buffer.h"
 #include "tests/scene/scene_fixture.h"
 
 namespace seedframe {

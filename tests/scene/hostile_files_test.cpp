@@ -5,9 +5,9 @@
 #include <sys/stat.h>
 
 #include "base/files.h"
-#include "scene/formula.h"
-#include "scene/formula_functions.h"
-#include "tests/geometry/scratch_folder.h"
+#include "formula/formula.h"
+#include "formula/formula_functions.h"
+#include "tests/fixtures/scratch_folder.h"
 #include "tests/scene/scene_fixture.h"
 
 namespace seedframe {

@@ -8,7 +8,7 @@
 #include "base/files.h"
 #include "scene/expander.h"
 #include "tests/config/config_mutations.h"
-#include "tests/geometry/scratch_folder.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {

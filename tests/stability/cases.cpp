@@ -10,7 +10,7 @@
 #include "base/philox.h"
 #include "base/portable_math.h"
 #include "base/sha256.h"
-#include "tests/geometry/example_meshes.h"
+#include "tests/mesh/example_meshes.h"
 
 namespace seedframe {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "geometry/asset_library.h"
-#include "geometry/mesh_buffer.h"
-#include "scene/frame_spec.h"
+#include "assets/asset_library.h"
+#include "mesh/mesh_buffer.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

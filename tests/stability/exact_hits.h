@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/mesh_buffer.h"
-#include "scene/frame_spec.h"
+#include "mesh/mesh_buffer.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/sha256.h"
-#include "geometry/mesh_buffer.h"
-#include "scene/frame_spec.h"
-#include "tests/geometry/example_meshes.h"
+#include "mesh/mesh_buffer.h"
+#include "spec/frame_spec.h"
+#include "tests/mesh/example_meshes.h"
 
 namespace seedframe {
 

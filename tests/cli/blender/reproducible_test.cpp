@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "export/formats.h"
+#include "formats/formats.h"
 #include "tests/cli/program.h"
 
 namespace seedframe {

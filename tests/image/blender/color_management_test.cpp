@@ -31,7 +31,7 @@ constexpr float kTilt = 0.5F;
 
 struct Reference {
   std::string file;
-  ViewSettings settings;
+  ImageSettings settings;
 };
 
 class RealBlenderColor : public testing::Test {
@@ -87,7 +87,7 @@ TEST_F(RealBlenderColor, PicturesEqualBlendersOwnWithinOneCodeValue) {
   const std::vector<Reference> all = references();
   ASSERT_EQ(all.size(), 12U);
   for (const Reference& reference : all) {
-    const ViewSettings& settings = reference.settings;
+    const ImageSettings& settings = reference.settings;
     SCOPED_TRACE(fmt::format("view {}, look {}, exposure {}, gamma {}", settings.view,
                              settings.look, settings.exposure_stops, settings.gamma));
     const auto blenders = read_png8(folder_ / reference.file);

@@ -1,9 +1,9 @@
 // Lenses, environment maps and hidden objects as Blender shows them, and Embree's view of the same.
 #include <gmock/gmock.h>
 
-#include "geometry/mesh_buffer.h"
-#include "geometry/ray_scene.h"
-#include "real_blender_fixture.h"
+#include "mesh/mesh_buffer.h"
+#include "rays/ray_scene.h"
+#include "tests/render/blender/real_blender_fixture.h"
 
 namespace seedframe {
 namespace {

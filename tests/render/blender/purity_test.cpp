@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "real_blender_fixture.h"
+#include "tests/render/blender/real_blender_fixture.h"
 
 namespace seedframe {
 namespace {

@@ -21,7 +21,7 @@
 #include "image/pass_reader.h"
 #include "render/blender_info.h"
 #include "render/worker_pool.h"
-#include "scene/frame_spec.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 

@@ -1,7 +1,7 @@
 // What each value of a frame spec means in the picture.
 #include <gmock/gmock.h>
 
-#include "real_blender_fixture.h"
+#include "tests/render/blender/real_blender_fixture.h"
 
 namespace seedframe {
 namespace {

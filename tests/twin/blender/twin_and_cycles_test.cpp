@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "geometry/mesh_buffer.h"
+#include "mesh/mesh_buffer.h"
 #include "tests/render/blender/real_blender_fixture.h"
 #include "twin/twin.h"
 #include "twin/twin_check.h"

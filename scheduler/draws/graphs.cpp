@@ -1,0 +1,107 @@
+#include "draws/graphs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/canonical_json.h"
+#include "base/files.h"
+#include "base/nearest_name.h"
+
+namespace seedframe {
+namespace {
+
+/// What is wrong with one value, or empty.
+std::string take_value(const Json& value, const GraphVariable& variable) {
+  if (variable.type.type == ValueType::kText) {
+    if (!value.is_string()) return "expected a name";
+    variable.given->names.push_back(value.get<std::string>());
+    return {};
+  }
+  std::array<double, 3> numbers{};
+  if (variable.type.type == ValueType::kVector) {
+    if (!value.is_array() || value.size() != 3) return "expected [x, y, z]";
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!value[i].is_number()) return "expected [x, y, z]";
+      numbers[i] = value[i].get<double>();
+    }
+  } else {
+    if (!value.is_number()) return "expected a number";
+    numbers[0] = value.get<double>();
+  }
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); })) {
+    return "a number must be finite";
+  }
+  variable.given->numbers.push_back(numbers);
+  return {};
+}
+
+std::string take_values(const Json& value, const GraphVariable& variable) {
+  const bool is_vector = variable.type.type == ValueType::kVector;
+  const bool is_list =
+      value.is_array() && (!is_vector || (!value.empty() && value.front().is_array()));
+  if (!is_list) return take_value(value, variable);
+  if (!variable.per_copy) return "expected one value: this variable has no copies";
+  if (value.empty()) return "expected a value for each copy, found none";
+  for (const Json& item : value) {
+    if (std::string fault = take_value(item, variable); !fault.empty()) return fault;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Graphs> Graphs::open(const std::filesystem::path& file) {
+  constexpr std::size_t kMostBytes = 1u << 30;
+  constexpr std::size_t kMostLines = 10'000'000;
+  Result<std::string> text = read_file(file, kMostBytes);
+  if (!text) return fail(ErrorKind::kInput, "{}", text.error().message);
+  Graphs graphs;
+  graphs.file_ = file.string();
+  graphs.text_ = std::make_shared<const std::string>(std::move(*text));
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin < graphs.text_->size();) {
+    const std::size_t end = std::min(graphs.text_->find('\n', begin), graphs.text_->size());
+    ++number;
+    const std::string_view line(graphs.text_->data() + begin, end - begin);
+    if (line.find_first_not_of(" \t\r") != std::string_view::npos) {
+      if (graphs.lines_.size() == kMostLines) {
+        return fail(ErrorKind::kInput, "{} has more than {} lines", graphs.file_, kMostLines);
+      }
+      graphs.lines_.push_back({begin, end - begin, number});
+    }
+    begin = end + 1;
+  }
+  if (graphs.lines_.empty()) return fail(ErrorKind::kInput, "{} has no lines", graphs.file_);
+  return graphs;
+}
+
+Status Graphs::apply(std::int64_t index, const GraphVariables& variables) const {
+  for (const auto& [key, variable] : variables) {
+    variable.given->numbers.clear();
+    variable.given->names.clear();
+  }
+  const Line& line = lines_.at(static_cast<std::size_t>(index));
+  const std::string where = fmt::format("{}:{}", file_, line.number);
+  const Result<Json> graph =
+      parse_json(std::string_view(*text_).substr(line.begin, line.length), where);
+  if (!graph) return fail(ErrorKind::kInput, "{}", graph.error().message);
+  if (!graph->is_object()) {
+    return fail(ErrorKind::kInput, "{}: expected an object, such as {{\"yaw\": 90}}", where);
+  }
+  for (const auto& [key, value] : graph->items()) {
+    const auto found = variables.find(key);
+    if (found == variables.end()) {
+      std::vector<std::string> known;
+      for (const auto& entry : variables) known.push_back(entry.first);
+      return fail(ErrorKind::kInput, "{}: the config has no variable '{}'{}", where, key,
+                  did_you_mean(key, known));
+    }
+    if (const std::string fault = take_values(value, found->second); !fault.empty()) {
+      return fail(ErrorKind::kInput, "{}: {}: {}, found {}", where, key, fault,
+                  value.dump().substr(0, 60));
+    }
+  }
+  return {};
+}
+
+}  // namespace seedframe

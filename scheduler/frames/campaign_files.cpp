@@ -1,0 +1,34 @@
+#include "frames/campaign_files.h"
+
+#include <fmt/format.h>
+
+namespace seedframe {
+namespace fs = std::filesystem;
+
+std::string frame_stem(std::int64_t frame) { return fmt::format("{:06}", frame); }
+
+fs::path CampaignFiles::worker_log(int worker) const {
+  return logs() / fmt::format("worker-{:02}.log", worker);
+}
+
+fs::path CampaignFiles::crash_log(std::int64_t frame, int attempt) const {
+  return logs() / fmt::format("crash-{}-{}.log", frame_stem(frame), attempt);
+}
+
+fs::path CampaignFiles::mesh_buffer(const std::string& sha256) const {
+  return work() / "meshes" / (sha256 + ".mesh");
+}
+
+fs::path CampaignFiles::attempt(std::int64_t frame, int attempt) const {
+  return work() / "attempts" / fmt::format("{}-{}", frame_stem(frame), attempt);
+}
+
+fs::path CampaignFiles::rejected(std::int64_t frame) const {
+  return root() / "rejected" / frame_stem(frame);
+}
+
+fs::path CampaignFiles::frame(std::int64_t frame) const {
+  return frames() / fmt::format("{:03}", frame / 1000) / frame_stem(frame);
+}
+
+}  // namespace seedframe

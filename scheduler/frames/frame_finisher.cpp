@@ -1,0 +1,175 @@
+#include "frames/frame_finisher.h"
+
+#include <algorithm>
+
+#include "annotate/amodal.h"
+#include "annotate/labels.h"
+#include "frames/campaign_files.h"
+#include "frames/frame_writer.h"
+#include "image/exr_file.h"
+#include "image/exr_metadata.h"
+#include "image/pass_reader.h"
+#include "image/pixel_hash.h"
+#include "image/png_file.h"
+#include "twin/twin_check.h"
+
+namespace seedframe {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kRenderedPasses = "rendered.exr";
+constexpr const char* kSharpPasses = "rendered.exr.sharp";
+
+PassExpectation expectation(const FinishTask& task) {
+  const FrameSpec& spec = task.spec;
+  PassExpectation expected;
+  expected.frame_id = task.frame_id;
+  expected.width = spec.render.width;
+  expected.height = spec.render.height;
+  expected.depth = spec.render.depth;
+  expected.normal = spec.render.normal;
+  for (const InstanceSpec& instance : spec.instances) {
+    expected.max_instance_id = std::max(expected.max_instance_id, instance.id);
+  }
+  return expected;
+}
+
+/// The passes of a frame. Depth of field disturbs all but the picture, so then the worker renders
+/// the rest once more without it.
+Result<FramePasses> read_frame_passes(const FinishTask& task) {
+  const PassExpectation expected = expectation(task);
+  Result<FramePasses> passes = read_passes(rendered_passes(task.attempt_folder), expected);
+  if (!passes || task.spec.camera.aperture_radius_m == 0.0) return passes;
+  Result<FramePasses> sharp = read_passes(task.attempt_folder / kSharpPasses, expected);
+  if (!sharp) return sharp;
+  sharp->combined = std::move(passes->combined);
+  sharp->pixel_hashes["combined"] = passes->pixel_hashes["combined"];
+  return sharp;
+}
+
+Grazes grazes_of(const Twin& twin) {
+  return [&twin](int row, int column, std::uint16_t id) { return twin.grazes(row, column, id); };
+}
+
+/// Moves what was rendered out of the attempt's folder, which goes, and puts beside it what it
+/// should have been.
+Status keep_rejected(const FinishTask& task, const Image<std::uint16_t>& rendered, const Twin& twin,
+                     const std::string& reason) {
+  const fs::path& folder = task.rejected_folder;
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (Status made = make_folders(folder); !made) return made;
+  for (const char* name : {kRenderedPasses, kSharpPasses}) {
+    fs::rename(task.attempt_folder / name, folder / name, error);  // the sharp one is seldom there
+  }
+  FrameWriter writer(folder);
+  writer.write(frame_files::kSpec, readable_json(to_json(task.spec)));
+  writer.write(frame_files::kInstances, encode_png(rendered));
+  writer.write(frame_files::kTwin, encode_png(twin.instance_ids));
+  writer.write(frame_files::kDifference,
+               encode_png(difference_image(rendered, twin.instance_ids, grazes_of(twin))));
+  writer.write(frame_files::kReason, reason + "\n");
+  return writer.status();
+}
+
+Result<TwinTally> check_with_twin(const FinishTask& task, const TwinCheck& check,
+                                  const Image<std::uint16_t>& rendered, const Twin& twin) {
+  if (!check.wanted || !task.spec.labels.twin_exact) return TwinTally{};
+  const TwinVerdict verdict =
+      compare_with_twin(task.spec, rendered, twin.instance_ids, check.tolerance, grazes_of(twin));
+  if (verdict.complaint.empty()) return verdict.tally;
+  if (Status kept = keep_rejected(task, rendered, twin, verdict.complaint); !kept) {
+    return forward_error(kept);
+  }
+  return fail(ErrorKind::kRender, "{}. What was rendered is kept in {}", verdict.complaint,
+              task.rejected_folder.string());
+}
+
+/// What both ways of finishing write.
+Status write_labels(const FinishTask& task, const std::vector<std::string>& categories,
+                    const Image<std::uint16_t>& instance_ids, const Twin& twin,
+                    FrameWriter& writer) {
+  Result<FrameLabels> labels = make_labels(task.spec, categories, instance_ids);
+  if (!labels) return forward_error(labels);
+  add_amodal_labels(*labels, task.spec, twin, instance_ids);
+  writer.write(frame_files::kSpec, readable_json(to_json(task.spec)));
+  writer.write(frame_files::kInstances, encode_png(instance_ids));
+  writer.write(frame_files::kSemantic, encode_png(semantic_image(task.spec, instance_ids)));
+  writer.write(frame_files::kLabels, readable_json(to_json(*labels)));
+  return {};
+}
+
+void write_data_passes(const std::optional<Image<float>>& depth,
+                       const std::optional<Image<float>>& normal, FrameWriter& writer) {
+  if (depth) {
+    writer.make(frame_files::kDepth,
+                [&](const fs::path& path) { return write_exr(path, *depth, {"Z"}); });
+  }
+  if (normal) {
+    writer.make(frame_files::kNormal, [&](const fs::path& path) {
+      return write_exr(path, *normal, {"X", "Y", "Z"});
+    });
+  }
+}
+
+Result<FinishedFrame> close(const FinishTask& task, const TwinTally& tally, FrameWriter& writer) {
+  Manifest& manifest = writer.manifest();
+  manifest.frame_id = task.frame_id;
+  manifest.twin = tally;
+  if (Status written = writer.write_manifest(); !written) return forward_error(written);
+  return FinishedFrame{manifest.pixel_hash(), tally};
+}
+
+}  // namespace
+
+fs::path rendered_passes(const fs::path& attempt_folder) {
+  return attempt_folder / kRenderedPasses;
+}
+
+Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorManagement& color) {
+  const Result<FramePasses> passes = read_frame_passes(task);
+  if (!passes) return forward_error(passes);
+  const Image<std::uint16_t>& ids = passes->instance_ids;
+  const Result<Twin> twin = tracer_.trace(task.spec, task.meshes, TwinTracer::Passes::kIdsOnly);
+  if (!twin) return forward_error(twin);
+  const Result<TwinTally> tally = check_with_twin(task, check_, ids, *twin);
+  if (!tally) return forward_error(tally);
+  const auto image = color.apply(passes->combined, task.spec.image);
+  if (!image) return forward_error(image);
+
+  FrameWriter writer(task.attempt_folder);
+  if (Status labelled = write_labels(task, categories_, ids, *twin, writer); !labelled) {
+    return forward_error(labelled);
+  }
+  writer.write(frame_files::kImage, encode_png(*image));
+  writer.make(frame_files::kPasses, [&](const fs::path& path) {
+    return copy_without_metadata(rendered_passes(task.attempt_folder), path);
+  });
+  write_data_passes(passes->depth, passes->normal, writer);
+  writer.manifest().pixel_hashes = passes->pixel_hashes;
+  writer.manifest().pixel_hashes["image"] = pixel_hash(*image, "R,G,B");
+  Result<FinishedFrame> finished = close(task, *tally, writer);
+  if (!finished) return finished;
+  std::error_code ignored;
+  fs::remove(task.attempt_folder / kRenderedPasses, ignored);
+  fs::remove(task.attempt_folder / kSharpPasses, ignored);
+  return finished;
+}
+
+Result<FinishedFrame> FrameFinisher::finish_by_twin(const FinishTask& task) {
+  const Result<Twin> twin = tracer_.trace(task.spec, task.meshes, TwinTracer::Passes::kAsked);
+  if (!twin) return forward_error(twin);
+  FrameWriter writer(task.attempt_folder);
+  if (Status labelled = write_labels(task, categories_, twin->instance_ids, *twin, writer);
+      !labelled) {
+    return forward_error(labelled);
+  }
+  write_data_passes(twin->depth, twin->normal, writer);
+  auto& hashes = writer.manifest().pixel_hashes;
+  hashes["index"] = pixel_hash(twin->instance_ids, "X");
+  if (twin->depth) hashes["depth"] = pixel_hash(*twin->depth, "float", "Z");
+  if (twin->normal) hashes["normal"] = pixel_hash(*twin->normal, "float", "X,Y,Z");
+  return close(task, {}, writer);
+}
+
+}  // namespace seedframe

@@ -1,0 +1,55 @@
+// Post-processing of one attempt: from the worker's EXR, or from the twin alone, to the files of
+// the frame.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/error.h"
+#include "image/color_management.h"
+#include "spec/frame_spec.h"
+#include "spec/twin_check.h"
+#include "twin/twin.h"
+
+namespace seedframe {
+
+struct FinishTask {
+  FrameSpec spec;
+  std::string frame_id;
+  MeshBuffers meshes;                     ///< of the spec's instances
+  std::filesystem::path attempt_folder;   ///< holds the worker's passes
+  std::filesystem::path rejected_folder;  ///< made for a frame that is not as its twin sees it
+};
+
+struct FinishedFrame {
+  std::string pixel_hash;
+  TwinTally twin;
+};
+
+/// The worker writes here, inside the attempt folder.
+std::filesystem::path rendered_passes(const std::filesystem::path& attempt_folder);
+
+/// Writes the files of frames into their attempt folders; StoreWriter brings them to the disk and
+/// into place. A kRender error is the worker's fault, a kEnvironment error the disk's. Thread-safe.
+class FrameFinisher {
+ public:
+  /// `twin_threads` trace each frame.
+  FrameFinisher(std::vector<std::string> categories, const TwinCheck& check, int twin_threads)
+      : categories_(std::move(categories)), check_(check), tracer_(twin_threads) {}
+
+  /// Reads and checks the passes, compares them with the frame's twin, and writes image.png,
+  /// instances.png, semantic.png, labels.json, frame.json, the passes without dates, depth.exr and
+  /// normal.exr when asked for, and the manifest. A frame that differs from its twin is an error,
+  /// and what was rendered is kept in the rejected folder.
+  Result<FinishedFrame> finish(const FinishTask& task, const ColorManagement& color);
+
+  /// The same files without the image and the passes, from the twin; no worker was asked.
+  Result<FinishedFrame> finish_by_twin(const FinishTask& task);
+
+ private:
+  std::vector<std::string> categories_;
+  TwinCheck check_;
+  TwinTracer tracer_;
+};
+
+}  // namespace seedframe

@@ -1,0 +1,176 @@
+#include "mesh/collapse_ring.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/triangle_distance.h"
+
+namespace seedframe {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+void append(TracedSurface::Samples& to, const TracedSurface::Samples& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+TracedSurface::TracedSurface(CgalSurface from)
+    : surface(std::move(from)),
+      feature(surface.add_property_map<Edge, bool>("e:feature", false).first),
+      along(surface.add_property_map<Edge, Samples>("e:along").first),
+      on(surface.add_property_map<Face, Samples>("f:on").first),
+      chart(surface.add_property_map<Face, std::uint32_t>("f:chart", 0).first),
+      locked(surface.add_property_map<Edge, bool>("e:locked", false).first) {}
+
+std::size_t TracedSurface::feature_degree(Vertex vertex) const {
+  std::size_t degree = 0;
+  for (const Halfedge halfedge : CGAL::halfedges_around_target(vertex, surface)) {
+    if (is_feature(halfedge)) ++degree;
+  }
+  return degree;
+}
+
+CollapseRing::CollapseRing(const TracedSurface& traced, TracedSurface::Halfedge halfedge,
+                           const CgalKernel::Point_3& point)
+    : point_(vector_of(point)) {
+  collect(traced, halfedge);
+  collect(traced, traced.surface.opposite(halfedge));
+  collect_spokes(traced, halfedge);
+  collect_spokes(traced, traced.surface.opposite(halfedge));
+  if (traced.is_feature(halfedge)) loose_along_ = traced.along[traced.surface.edge(halfedge)];
+}
+
+// The triangles around the halfedge's target. Of the edge's own two, each end sees both; this end
+// takes the one on the halfedge's left.
+void CollapseRing::collect(const TracedSurface& traced, TracedSurface::Halfedge halfedge) {
+  const CgalSurface& surface = traced.surface;
+  const auto left = surface.face(halfedge);
+  const auto right = surface.face(surface.opposite(halfedge));
+  for (const auto in : CGAL::halfedges_around_target(halfedge, surface)) {
+    const auto face = surface.face(in);
+    if (face == CgalSurface::null_face() || face == right) continue;
+    if (face == left) {
+      append(loose_on_, traced.on[face]);
+      continue;
+    }
+    Triangle triangle;
+    triangle.a = surface.target(surface.next(in));
+    triangle.b = surface.source(in);
+    triangle.at_a = vector_of(surface.point(triangle.a));
+    triangle.at_b = vector_of(surface.point(triangle.b));
+    triangle.before = vector_of(surface.point(surface.target(in)));
+    triangle.chart = traced.chart[face];
+    triangle.on = traced.on[face];
+    triangles_.push_back(std::move(triangle));
+  }
+}
+
+void CollapseRing::collect_spokes(const TracedSurface& traced, TracedSurface::Halfedge halfedge) {
+  const CgalSurface& surface = traced.surface;
+  for (const auto in : CGAL::halfedges_around_target(halfedge, surface)) {
+    if (in == halfedge || !traced.is_feature(in)) continue;
+    const auto end = surface.source(in);
+    spokes_.push_back({end, vector_of(surface.point(end)), traced.along[surface.edge(in)]});
+  }
+}
+
+bool CollapseRing::keeps(const SimplifyOriginal& original, double tolerance_m) {
+  const double squared = tolerance_m * tolerance_m;
+  return keeps_direction() && keeps_lines_near(original, squared) &&
+         keeps_original_near(original, squared) && stays_near_original(original, squared);
+}
+
+bool CollapseRing::keeps_direction() const {
+  constexpr double kLeastCosine = 0.25;
+  return std::all_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
+    const Vector side = t.at_b - t.at_a;
+    const Vector before = side.cross(t.before - t.at_a);
+    const Vector after = side.cross(point_ - t.at_a);
+    if (before.squaredNorm() == 0.0) return true;  // flat already: it had no direction
+    if (after.squaredNorm() == 0.0) return false;
+    return before.dot(after) >= kLeastCosine * before.norm() * after.norm();
+  });
+}
+
+// Each sample of the original goes to the triangle that is nearest now.
+bool CollapseRing::keeps_original_near(const SimplifyOriginal& original, double squared_tolerance) {
+  if (triangles_.empty()) return false;
+  TracedSurface::Samples samples = loose_on_;
+  for (Triangle& triangle : triangles_) {
+    append(samples, triangle.on);
+    triangle.on.clear();
+  }
+  for (const std::uint32_t sample : samples) {
+    const Vector& p = original.samples[sample];
+    Triangle* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (Triangle& t : triangles_) {
+      const double distance = squared_distance_to_triangle(p, t.at_a, t.at_b, point_);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &t;
+    }
+    if (nearest == nullptr || least > squared_tolerance) return false;
+    nearest->on.push_back(sample);
+  }
+  return true;
+}
+
+bool CollapseRing::keeps_lines_near(const SimplifyOriginal& original, double squared_tolerance) {
+  TracedSurface::Samples samples = loose_along_;
+  for (Spoke& spoke : spokes_) {
+    append(samples, spoke.along);
+    spoke.along.clear();
+  }
+  for (const std::uint32_t sample : samples) {
+    const Vector& p = original.samples[sample];
+    Spoke* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (Spoke& spoke : spokes_) {
+      const double distance = squared_distance_to_segment(p, spoke.at, point_);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &spoke;
+    }
+    if (nearest == nullptr || least > squared_tolerance) return false;
+    nearest->along.push_back(sample);
+  }
+  return true;
+}
+
+bool CollapseRing::stays_near_original(const SimplifyOriginal& original,
+                                       double squared_tolerance) const {
+  const auto is_near = [&](const Vector& p) {
+    return original.tree.squared_distance({p.x(), p.y(), p.z()}) <= squared_tolerance;
+  };
+  if (!is_near(point_)) return false;
+  return std::all_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
+    return is_near(0.5 * (t.at_a + point_)) && is_near(0.5 * (t.at_b + point_)) &&
+           is_near((t.at_a + t.at_b + point_) / 3.0);
+  });
+}
+
+void CollapseRing::apply(TracedSurface& traced, TracedSurface::Vertex vertex) {
+  const CgalSurface& surface = traced.surface;
+  // CGAL is free to keep either of two merged edges and faces: they are told by their ends.
+  for (const auto in : CGAL::halfedges_around_target(vertex, surface)) {
+    const auto end = surface.source(in);
+    const auto spoke = std::find_if(spokes_.begin(), spokes_.end(),
+                                    [&](const Spoke& candidate) { return candidate.end == end; });
+    const auto edge = surface.edge(in);
+    traced.feature[edge] = spoke != spokes_.end();
+    traced.along[edge] = spoke == spokes_.end() ? TracedSurface::Samples() : spoke->along;
+    const auto face = surface.face(in);
+    if (face == CgalSurface::null_face()) continue;
+    for (Triangle& triangle : triangles_) {
+      if (triangle.b != end || triangle.a != surface.target(surface.next(in))) continue;
+      traced.chart[face] = triangle.chart;
+      traced.on[face] = std::move(triangle.on);
+      break;
+    }
+  }
+}
+
+}  // namespace seedframe

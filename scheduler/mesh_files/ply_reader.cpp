@@ -1,0 +1,226 @@
+// Our own reader, because CGAL's drops UVs and materials and, like most, allocates what the header
+// claims.
+#include "mesh_files/ply_reader.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/files.h"
+#include "mesh_files/byte_reader.h"
+#include "mesh_files/mesh_builder.h"
+#include "mesh_files/ply_header.h"
+#include "mesh_files/text_scanner.h"
+
+namespace seedframe {
+namespace {
+
+template <class T>
+std::optional<double> take_double(std::string_view& rest, bool big_endian) {
+  const auto value = take_value<T>(rest, big_endian);
+  if (!value) return std::nullopt;
+  return static_cast<double>(*value);
+}
+
+std::optional<double> take_binary(std::string_view& rest, PlyType type, bool big_endian) {
+  switch (type) {
+    case PlyType::kInt8:
+      return take_double<std::int8_t>(rest, big_endian);
+    case PlyType::kUint8:
+      return take_double<std::uint8_t>(rest, big_endian);
+    case PlyType::kInt16:
+      return take_double<std::int16_t>(rest, big_endian);
+    case PlyType::kUint16:
+      return take_double<std::uint16_t>(rest, big_endian);
+    case PlyType::kInt32:
+      return take_double<std::int32_t>(rest, big_endian);
+    case PlyType::kUint32:
+      return take_double<std::uint32_t>(rest, big_endian);
+    case PlyType::kFloat32:
+      return take_double<float>(rest, big_endian);
+    case PlyType::kFloat64:
+      return take_double<double>(rest, big_endian);
+  }
+  return std::nullopt;
+}
+
+// The values of one property of one vertex or face; a scalar is a list of one.
+using Values = std::vector<double>;
+
+class PlyParser {
+ public:
+  explicit PlyParser(const std::string& file) : file_(file), builder_(file) {}
+
+  Result<Mesh> parse(std::string_view bytes) {
+    rest_ = bytes;
+    auto header = take_ply_header(rest_, file_);
+    if (!header) return forward_error(header);
+    format_ = header->format;
+    for (const PlyElement& element : header->elements) {
+      if (Status status = parse_element(element); !status) return forward_error(status);
+    }
+    return builder_.finish("an element 'face' with a list 'vertex_indices'");
+  }
+
+ private:
+  Status parse_element(const PlyElement& element) {
+    if (element.properties.empty()) return {};  // takes no bytes, however many there are
+    if (Status status = find_properties(element); !status) return status;
+    std::vector<Values> row(element.properties.size());
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      const std::string place = fmt::format("{} {}", element.name, i);
+      for (std::size_t p = 0; p < row.size(); ++p) {
+        if (take_property(element.properties[p], row[p])) continue;
+        return builder_.fail_at(
+            place, "expected '{}', found {}; {} were promised", element.properties[p].name,
+            trimmed(rest_).empty() ? "the end of the file" : "no such number", element.count);
+      }
+      Status added;
+      if (element.name == "vertex") added = add_vertex(row, place);
+      if (element.name == "face") added = add_face(row, place);
+      if (!added) return added;
+    }
+    return {};
+  }
+
+  Status find_properties(const PlyElement& element) {
+    if (element.name == "vertex") {
+      if (builder_.position_count() > 0) {
+        return builder_.fail_at("", "a second element 'vertex': expected one");
+      }
+      position_ = {element.find({"x"}), element.find({"y"}), element.find({"z"})};
+      uv_ = {element.find({"s", "u", "texture_u"}), element.find({"t", "v", "texture_v"})};
+      if (position_[0] < 0 || position_[1] < 0 || position_[2] < 0) {
+        return builder_.fail_at("", "vertices need the properties x, y and z");
+      }
+    }
+    if (element.name == "face") {
+      corners_ = element.find({"vertex_indices", "vertex_index"});
+      face_uvs_ = element.find({"texcoord"});
+      slot_ = element.find({"material_index", "texnumber"});
+      if (corners_ < 0) {
+        return builder_.fail_at("", "faces need the list vertex_indices or vertex_index");
+      }
+    }
+    return {};
+  }
+
+  std::optional<double> take_number(PlyType type) {
+    if (format_ != PlyHeader::Format::kText) {
+      return take_binary(rest_, type, format_ == PlyHeader::Format::kBigEndian);
+    }
+    // Lines mean nothing behind the header.
+    while (!rest_.empty() && (is_space(rest_.front()) || rest_.front() == '\n')) {
+      rest_.remove_prefix(1);
+    }
+    std::size_t length = 0;
+    while (length < rest_.size() && !is_space(rest_[length]) && rest_[length] != '\n') ++length;
+    const auto number = parse_number<double>(rest_.substr(0, length));
+    rest_.remove_prefix(length);
+    return number;
+  }
+
+  // False at the end of the file and where there is no number. Long lists cost as many bytes as
+  // they claim values, so memory stays within the file's size.
+  bool take_property(const PlyProperty& property, Values& values) {
+    values.clear();
+    double count = 1.0;
+    if (property.is_list) {
+      const auto claimed = take_number(property.count_type);
+      if (!claimed || *claimed < 0.0 || *claimed > static_cast<double>(rest_.size())) return false;
+      count = *claimed;
+    }
+    for (double i = 0.0; i < count; ++i) {
+      const auto value = take_number(property.type);
+      if (!value) return false;
+      values.push_back(*value);
+    }
+    return true;
+  }
+
+  static std::optional<float> coordinate(const std::vector<Values>& row, int property) {
+    const Values& values = row[static_cast<std::size_t>(property)];
+    if (values.size() != 1 || !(std::abs(values[0]) <= std::numeric_limits<float>::max())) {
+      return std::nullopt;
+    }
+    return static_cast<float>(values[0]);
+  }
+
+  Status add_vertex(const std::vector<Values>& row, const std::string& place) {
+    std::array<float, 3> position{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto value = coordinate(row, position_[axis]);
+      if (!value) return builder_.fail_at(place, "expected a finite coordinate");
+      position[axis] = *value;
+    }
+    builder_.add_position(position);
+    if (uv_[0] < 0 || uv_[1] < 0) return {};
+    const auto u = coordinate(row, uv_[0]);
+    const auto v = coordinate(row, uv_[1]);
+    if (!u || !v) return builder_.fail_at(place, "expected a finite UV");
+    builder_.add_uv({*u, *v});
+    return {};
+  }
+
+  Status add_face(const std::vector<Values>& row, const std::string& place) {
+    const Values& indices = row[static_cast<std::size_t>(corners_)];
+    std::vector<PolygonCorner> corners;
+    corners.reserve(indices.size());
+    const std::size_t vertices = builder_.position_count();
+    const bool vertex_uvs = uv_[0] >= 0 && uv_[1] >= 0;
+    for (const double index : indices) {
+      if (!(index >= 0.0 && index < static_cast<double>(vertices)) || index != std::floor(index)) {
+        return builder_.fail_at(place, "names vertex {}, but {} stand above it", index, vertices);
+      }
+      const auto position = static_cast<std::uint32_t>(index);
+      corners.push_back({position, vertex_uvs ? position : PolygonCorner::kNone});
+    }
+    if (Status status = add_face_uvs(row, corners, place); !status) return status;
+    if (slot_ >= 0) {
+      const Values& slot = row[static_cast<std::size_t>(slot_)];
+      if (slot.size() != 1 || !(std::abs(slot[0]) < static_cast<double>(kMostImportedSlots))) {
+        return builder_.fail_at(place, "expected the number of a material");
+      }
+      builder_.use_slot(fmt::format("material{}", static_cast<int>(std::max(0.0, slot[0]))));
+    }
+    return builder_.add_polygon(corners, place);
+  }
+
+  // UVs of the face's own corners win over those of its vertices.
+  Status add_face_uvs(const std::vector<Values>& row, std::vector<PolygonCorner>& corners,
+                      const std::string& place) {
+    if (face_uvs_ < 0) return {};
+    const Values& uvs = row[static_cast<std::size_t>(face_uvs_)];
+    if (uvs.empty()) return {};  // a face without a texture
+    if (uvs.size() != 2 * corners.size()) {
+      return builder_.fail_at(place, "{} corners need {} numbers in texcoord, found {}",
+                              corners.size(), 2 * corners.size(), uvs.size());
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      corners[i].uv =
+          builder_.add_uv({static_cast<float>(uvs[2 * i]), static_cast<float>(uvs[2 * i + 1])});
+    }
+    return {};
+  }
+
+  std::string file_;
+  MeshBuilder builder_;
+  std::string_view rest_;
+  PlyHeader::Format format_ = PlyHeader::Format::kText;
+  std::array<int, 3> position_{-1, -1, -1};  // places of properties in a row
+  std::array<int, 2> uv_{-1, -1};
+  int corners_ = -1;
+  int face_uvs_ = -1;
+  int slot_ = -1;
+};
+
+}  // namespace
+
+Result<Mesh> read_ply(const std::filesystem::path& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) return forward_error(bytes);
+  return PlyParser(path.string()).parse(*bytes);
+}
+
+}  // namespace seedframe

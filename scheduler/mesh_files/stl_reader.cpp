@@ -1,0 +1,142 @@
+// Our own reader, because CGAL's takes a binary file's triangle count on trust and reads what is
+// left of a file that was cut short.
+#include "mesh_files/stl_reader.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/files.h"
+#include "mesh_files/byte_reader.h"
+#include "mesh_files/mesh_builder.h"
+#include "mesh_files/position_welder.h"
+#include "mesh_files/text_scanner.h"
+
+namespace seedframe {
+namespace {
+
+constexpr std::size_t kBinaryHeaderBytes = 84;  // 80 of text and the number of triangles
+constexpr std::size_t kTriangleBytes = 50;
+
+Result<Mesh> read_binary(std::string_view bytes, const std::string& file) {
+  MeshBuilder builder(file);
+  const auto count = value_from<std::uint32_t>(bytes.substr(80));
+  const std::size_t expected = kBinaryHeaderBytes + kTriangleBytes * std::size_t{count};
+  if (bytes.size() != expected) {
+    return builder.fail_at("",
+                           "a binary STL of {} triangles takes {} bytes, but there are {}: the "
+                           "file is cut short or damaged",
+                           count, expected, bytes.size());
+  }
+  PositionWelder welder(builder);
+  for (std::size_t t = 0; t < count; ++t) {
+    // A normal of three floats comes before the corners.
+    std::string_view rest = bytes.substr(kBinaryHeaderBytes + t * kTriangleBytes + 12, 36);
+    std::array<PolygonCorner, 3> triangle;
+    for (PolygonCorner& corner : triangle) {
+      std::array<float, 3> position{};
+      for (float& value : position) value = *take_value<float>(rest);
+      corner.position = welder.index_of(position);
+    }
+    if (Status status = builder.add_polygon(triangle, fmt::format("triangle {}", t)); !status) {
+      return forward_error(status);
+    }
+  }
+  return builder.finish("one triangle or more");
+}
+
+std::optional<std::array<float, 3>> parse_vertex(std::string_view words) {
+  std::array<float, 3> position{};
+  for (float& value : position) {
+    const auto number = parse_number<double>(take_word(words));
+    if (!number || !std::isfinite(static_cast<float>(*number))) return std::nullopt;
+    value = static_cast<float>(*number);
+  }
+  if (!trimmed(words).empty()) return std::nullopt;
+  return position;
+}
+
+class TextParser {
+ public:
+  explicit TextParser(const std::string& file) : builder_(file), welder_(builder_) {}
+
+  Result<Mesh> parse(std::string_view text) {
+    while (!text.empty()) {
+      ++line_number_;
+      if (Status status = parse_line(trimmed(take_line(text))); !status) {
+        return forward_error(status);
+      }
+    }
+    if (!ended_) {
+      return builder_.fail_at(std::to_string(line_number_),
+                              "expected 'endsolid' at the end: the file is cut short");
+    }
+    return builder_.finish("lines like 'vertex 0 0 0' between 'outer loop' and 'endloop'");
+  }
+
+ private:
+  Status parse_line(std::string_view line) {
+    std::string_view words = line;
+    const std::string_view keyword = take_word(words);
+    if (keyword == "vertex") return parse_corner(words);
+    if (keyword == "endloop") return end_loop();
+    if (keyword == "solid") ended_ = false;
+    if (keyword == "endsolid") ended_ = true;
+    const bool known = keyword.empty() || keyword == "solid" || keyword == "endsolid" ||
+                       keyword == "facet" || keyword == "outer" || keyword == "endfacet";
+    if (known) return {};
+    return builder_.fail_at(std::to_string(line_number_),
+                            "expected 'facet', 'vertex' or another word of STL, found '{}'",
+                            line.substr(0, 40));
+  }
+
+  Status parse_corner(std::string_view words) {
+    const auto position = parse_vertex(words);
+    if (!position) {
+      return builder_.fail_at(std::to_string(line_number_),
+                              "expected three finite numbers, found '{}'", words.substr(0, 80));
+    }
+    corners_.push_back({.position = welder_.index_of(*position)});
+    return {};
+  }
+
+  Status end_loop() {
+    Status added = builder_.add_polygon(corners_, std::to_string(line_number_));
+    corners_.clear();
+    return added;
+  }
+
+  MeshBuilder builder_;
+  PositionWelder welder_;
+  std::vector<PolygonCorner> corners_;
+  std::size_t line_number_ = 0;
+  bool ended_ = false;
+};
+
+// Binary files, too, may begin with "solid": what decides is whether the length fits the count.
+bool is_text(std::string_view bytes) {
+  if (bytes.size() >= kBinaryHeaderBytes) {
+    const auto count = value_from<std::uint32_t>(bytes.substr(80));
+    if (bytes.size() == kBinaryHeaderBytes + kTriangleBytes * std::size_t{count}) return false;
+  }
+  const std::string_view start = trimmed(bytes.substr(0, kBinaryHeaderBytes));
+  return start.starts_with("solid") && bytes.substr(0, 1024).find('\0') == std::string_view::npos;
+}
+
+}  // namespace
+
+Result<Mesh> read_stl(const std::filesystem::path& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) return forward_error(bytes);
+  const std::string file = path.string();
+  if (is_text(*bytes)) return TextParser(file).parse(*bytes);
+  if (bytes->size() < kBinaryHeaderBytes) {
+    return fail(ErrorKind::kInput,
+                "{}: {} bytes are no STL file: expected 'solid' or a header of {} bytes", file,
+                bytes->size(), kBinaryHeaderBytes);
+  }
+  return read_binary(*bytes, file);
+}
+
+}  // namespace seedframe

@@ -1,0 +1,145 @@
+// The frame spec: one fully resolved frame, numbers only, relative to the camera.
+// Its JSON is docs/formats/frame-spec.md; the SHA-256 of its canonical JSON is the frame id.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/canonical_json.h"
+#include "base/error.h"
+#include "spec/image_settings.h"
+#include "spec/keypoint.h"
+
+namespace seedframe {
+
+inline constexpr int kFrameSpecVersion = 4;
+
+/// Linear RGB, Rec.709 primaries.
+using Rgb = std::array<double, 3>;
+/// Row-major when written; maps points of an object to the camera's frame (x right, y up, z towards
+/// the viewer; metres). Includes scale.
+using Affine = Eigen::Transform<double, 3, Eigen::Affine>;
+
+struct RenderSettings {
+  int width = 0;   ///< pixels
+  int height = 0;  ///< pixels
+  int samples = 0;
+  std::uint32_t seed = 0;  ///< of Cycles, 31 bits
+  int max_bounces = 0;
+  double filter_width_px = 1.5;
+  double clamp_indirect = 0.0;  ///< scene-linear, 0 for none
+  bool depth = false;           ///< ask for the Depth pass
+  bool normal = false;          ///< ask for the Normal pass
+};
+
+/// A camera at the origin, looking down -z, y up.
+struct CameraSpec {
+  std::array<double, 2> focal_px{};   ///< fx, fy
+  std::array<double, 2> center_px{};  ///< principal point cx, cy; pixel centres are whole numbers
+  double clip_start_m = 0.0;
+  double clip_end_m = 0.0;
+  double aperture_radius_m = 0.0;  ///< 0: a pinhole
+  double focus_distance_m = 0.0;   ///< along -z; of no meaning to a pinhole
+};
+
+/// Parameters of Blender's Principled BSDF. A texture is named by the SHA-256 of its file; a colour
+/// texture is multiplied by base_color, the other textures replace their parameter.
+struct MaterialSpec {
+  Rgb base_color{};
+  double metallic = 0.0;
+  double roughness = 0.5;
+  double specular = 0.5;
+  double transmission = 0.0;
+  double ior = 1.45;
+  double clearcoat = 0.0;
+  double texture_repeat = 1.0;                  ///< repeats per UV unit
+  std::map<std::string, std::string> textures;  ///< "alpha", "color", "metallic", "normal", …
+
+  bool operator==(const MaterialSpec&) const = default;
+};
+
+/// Kinds of rays that pass through an object as if it were not there.
+struct HiddenFrom {
+  bool camera = false, diffuse = false, glossy = false, transmission = false, shadow = false;
+
+  bool operator==(const HiddenFrom&) const = default;
+};
+
+struct InstanceSpec {
+  std::string name;   ///< "<object>/<copy>"
+  int id = 0;         ///< value in the index pass; 0 for what is background (the ground)
+  int category = 0;   ///< index into the campaign's categories + 1; 0 for what has no label
+  std::string asset;  ///< its name; empty for the ground
+  std::string mesh;   ///< SHA-256 of the mesh buffer
+  std::vector<int> materials;  ///< for each material slot of the mesh an index into materials
+  HiddenFrom hidden_from;
+  std::vector<Keypoint> keypoints;  ///< the asset's
+  Affine camera_from_object = Affine::Identity();
+};
+
+enum class LightKind { kPoint, kSun, kSpot, kArea };
+
+/// Lights shine down their own -z, as Blender's do.
+struct LightSpec {
+  LightKind kind = LightKind::kPoint;
+  Affine camera_from_light = Affine::Identity();
+  Rgb color{};
+  double power = 0.0;      ///< watts of radiant flux; for a sun W/m²
+  double radius_m = 0.0;   ///< point and spot
+  double angle_rad = 0.0;  ///< sun: angular diameter; spot: full cone angle
+  double blend = 0.0;      ///< spot: softness of the edge, 0 to 1
+  double width_m = 0.0;    ///< area
+  double height_m = 0.0;   ///< area
+};
+
+/// Light from everywhere: one colour, or an environment map (equirectangular, z up) multiplied by
+/// it.
+struct WorldSpec {
+  Rgb color{};
+  double strength = 0.0;
+  std::string hdri;  ///< SHA-256 of an image file, or empty
+  /// From directions in the camera's frame to those of the environment map; with hdri only.
+  Eigen::Matrix3d map_from_camera = Eigen::Matrix3d::Identity();
+};
+
+/// Where labels come from: Blender's index pass, checked against the twin; or the twin alone,
+/// without Blender.
+enum class LabelSource { kIndexPass, kTwin };
+
+struct LabelSettings {
+  LabelSource source = LabelSource::kIndexPass;
+  /// Whether the twin sees exactly what is rendered. Not with cut-out textures, whose holes only
+  /// the renderer knows: there the index pass rules, and is not compared.
+  bool twin_exact = true;
+};
+
+struct FrameSpec {
+  RenderSettings render;
+  CameraSpec camera;
+  WorldSpec world;
+  std::vector<MaterialSpec> materials;
+  std::vector<InstanceSpec> instances;
+  std::vector<LightSpec> lights;
+  ImageSettings image;
+  LabelSettings labels;
+};
+
+/// The first part, instances aside, whose numbers are not all finite ("the camera"), or empty.
+/// Such a spec has no JSON.
+std::string part_beyond_numbers(const FrameSpec& spec);
+
+/// The canonical JSON, which is hashed and sent to workers.
+std::string canonical_text(const FrameSpec& spec);
+Json to_json(const FrameSpec& spec);
+/// Reads what to_json wrote; a newer version, a missing key or a wrong type is an error that names
+/// `what`.
+Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what);
+
+/// SHA-256 of the canonical text, 64 hex digits.
+std::string frame_id(const FrameSpec& spec);
+
+}  // namespace seedframe
