@@ -49,12 +49,11 @@ Grade Audit::grade() const {
   return worst;
 }
 
-Auditor::Auditor(const Campaign& campaign, PreparedCampaign& prepared, const ColorManagement* color,
-                 const RunOptions& run, const AuditOptions& options)
+Auditor::Auditor(const Campaign& campaign, PreparedCampaign& prepared, const RunSetup& setup,
+                 const AuditOptions& options)
     : campaign_(campaign),
       prepared_(prepared),
-      color_(color),
-      run_(run),
+      setup_(setup),
       options_(options),
       portable_(is_portable(prepared)) {}
 
@@ -104,8 +103,8 @@ std::vector<Conditions> Auditor::rounds() const {
 }
 
 RunOptions Auditor::options_of(const Conditions& varied) const {
-  RunOptions options = run_;
-  options.threads = threads_;
+  RunOptions options = setup_.options;
+  options.pool.worker.threads = threads_;
   return vary(std::move(options), varied, portable_, options_.folder / kElsewhere);
 }
 
@@ -113,7 +112,7 @@ Arrangement Auditor::arrangement_of(const Conditions& varied) const {
   std::vector<std::int64_t> frames;
   frames.reserve(audit_.frames.size());
   for (const AuditedFrame& frame : audit_.frames) frames.push_back(frame.frame);
-  return arrange(std::move(frames), varied, companions_, options_of(varied).workers);
+  return arrange(std::move(frames), varied, companions_, options_of(varied).pool.workers);
 }
 
 std::int64_t Auditor::renderings() const {
@@ -143,7 +142,7 @@ Status Auditor::compare_inputs(AuditedFrame& frame) {
 }
 
 Status Auditor::render(RunObserver& observer) {
-  Rerenderer rerenderer(prepared_, color_, observer);
+  Rerenderer rerenderer(prepared_, setup_, observer);
   for (std::size_t i = 0; i < audit_.rounds.size(); ++i) {
     Status rendered = render_round(audit_.rounds[i], i + 1, rerenderer);
     if (!rendered) return rendered;
@@ -210,8 +209,8 @@ std::int64_t Auditor::unexplained() const {
 
 Status Auditor::explain(RunObserver& observer) {
   const fs::path scratch = options_.folder / "work";
-  Rerenderer rerenderer(prepared_, color_, observer);
-  CauseFinder finder(campaign_, rerenderer, run_, portable_, companions_, scratch);
+  Rerenderer rerenderer(prepared_, setup_, observer);
+  CauseFinder finder(campaign_, rerenderer, setup_.options, portable_, companions_, scratch);
   const AuditedFrame* example = nullptr;  // the last one whose cause was looked for
   int looked_for = 0;
   for (AuditedFrame& frame : audit_.frames) {

@@ -55,10 +55,9 @@ struct Audit {
 /// An error is one of the audit itself: Blender that does not start, a disk that is full.
 class Auditor {
  public:
-  /// `color` is null when labels come from geometry. `run` is as a resume would run. All must
-  /// outlive it.
-  Auditor(const Campaign& campaign, PreparedCampaign& prepared, const ColorManagement* color,
-          const RunOptions& run, const AuditOptions& options);
+  /// `setup` is that of a resume. All must outlive it.
+  Auditor(const Campaign& campaign, PreparedCampaign& prepared, const RunSetup& setup,
+          const AuditOptions& options);
 
   /// Files, duplicates, and which frames are in the sample.
   Status look();
@@ -84,8 +83,7 @@ class Auditor {
 
   const Campaign& campaign_;
   PreparedCampaign& prepared_;
-  const ColorManagement* color_;
-  const RunOptions& run_;
+  const RunSetup& setup_;
   const AuditOptions& options_;
   bool portable_;
   std::vector<std::int64_t> companions_;  ///< see arrange

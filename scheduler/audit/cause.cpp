@@ -122,12 +122,13 @@ Result<Cause> CauseFinder::find(std::int64_t frame, const std::string& expected,
 
 Result<std::string> CauseFinder::hash_of(const Trial& trial) {
   RunOptions options = run_;
-  options.workers = 1;
-  options.threads = made_.threads;
-  options.conditions = {trial.kernels, trial.persistent_data};
+  WorkerOptions& worker = options.pool.worker;
+  options.pool.workers = 1;
+  worker.threads = made_.threads;
+  worker.conditions = {trial.kernels, trial.persistent_data};
   Conditions varied = trial.varied;
   if (varied.contains(Condition::kIsa) && !portable_) {
-    options.conditions.kernels = kernels_here_;
+    worker.conditions.kernels = kernels_here_;
     varied.erase(Condition::kIsa);
   }
   options = vary(std::move(options), varied, portable_, scratch_ / kElsewhere);
@@ -137,8 +138,8 @@ Result<std::string> CauseFinder::hash_of(const Trial& trial) {
   // Of one frame alone, the order is what comes before it.
   if (varied.erase(Condition::kOrder) > 0) varied.insert(Condition::kHistory);
   const Result<Campaign> rendered =
-      rerenderer_.render(arrange(std::move(frames), varied, companions_, options.workers), options,
-                         scratch_ / "trial");
+      rerenderer_.render(arrange(std::move(frames), varied, companions_, options.pool.workers),
+                         options, scratch_ / "trial");
   if (!rendered) return forward_error(rendered);
   const auto row = rendered->store.frame(frame_);
   if (!row) return forward_error(row);

@@ -64,30 +64,30 @@ RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
   for (const Condition condition : varied) {
     switch (condition) {
       case Condition::kThreads:
-        options.threads = options.threads == 1 ? std::max(2, cores()) : 1;
+        options.pool.worker.threads = options.pool.worker.threads == 1 ? std::max(2, cores()) : 1;
         break;
       case Condition::kWorkers:
-        options.workers = options.workers == kWorkers ? kWorkers - 1 : kWorkers;
+        options.pool.workers = options.pool.workers == kWorkers ? kWorkers - 1 : kWorkers;
         break;
       case Condition::kFreshWorker:
-        options.frames_per_worker = 1;
+        options.pool.frames_per_worker = 1;
         break;
       case Condition::kTmpdir:
-        options.environment["TMPDIR"] = temporary.string();
+        options.pool.worker.environment["TMPDIR"] = temporary.string();
         break;
       case Condition::kLocale:
-        options.environment["LC_ALL"] = "de_DE.UTF-8";
-        options.environment["LANGUAGE"] = "de";
+        options.pool.worker.environment["LC_ALL"] = "de_DE.UTF-8";
+        options.pool.worker.environment["LANGUAGE"] = "de";
         break;
       case Condition::kTimezone:
-        options.environment["TZ"] = "Pacific/Chatham";
+        options.pool.worker.environment["TZ"] = "Pacific/Chatham";
         break;
       case Condition::kIsa:
         if (portable) {
-          options.environment["GLIBC_TUNABLES"] =
+          options.pool.worker.environment["GLIBC_TUNABLES"] =
               "glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX2,-FMA,-AVX";
         } else {
-          options.conditions.kernels = kernels_of(kOtherIsa);
+          options.pool.worker.conditions.kernels = kernels_of(kOtherIsa);
         }
         break;
       case Condition::kOrder:    // of the frames, and
@@ -122,8 +122,10 @@ Arrangement arrange(std::vector<std::int64_t> frames, const Conditions& varied,
 Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions options,
                                     const fs::path& folder) {
   const std::vector<std::int64_t>& frames = arrangement.frames;
-  options.workers = arrangement.workers;
-  options.cache.clear();  // what is audited is never taken from anywhere
+  RunSetup setup = setup_;
+  setup.options = std::move(options);
+  setup.options.pool.workers = arrangement.workers;
+  setup.cache.clear();  // what is audited is never taken from anywhere
   std::error_code ignored;
   fs::remove_all(folder, ignored);
   if (Status made = make_folders(folder); !made) return forward_error(made);
@@ -133,13 +135,12 @@ Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions o
   if (Status added = add_rows(frames, prepared_, *store); !added) return forward_error(added);
   Campaign campaign{files, std::move(*store)};
   if (Status begun = begin_run(campaign); !begun) return forward_error(begun);
-  Result<Provenance> provenance = Provenance::load(
-      files, prepared_, color_ != nullptr ? color_->config_hash() : std::string(), options);
+  Result<Provenance> provenance = Provenance::load(files, prepared_, setup);
   if (!provenance) return forward_error(provenance);
   std::vector<PendingFrame> pending;
   pending.reserve(frames.size());
   for (const std::int64_t frame : frames) pending.push_back({frame, 0, 0});
-  const auto run = make_run(campaign, prepared_, color_, *provenance, options, observer_);
+  const auto run = make_run(campaign, prepared_, *provenance, setup, observer_);
   const Result<RunSummary> summary = run->run(pending);
   if (!summary) return forward_error(summary);
   return campaign;

@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "campaign/campaign.h"
 #include "campaign/campaign_run.h"
-#include "image/color_management.h"
+#include "campaign/run_options.h"
 
 namespace seedframe {
 
@@ -49,18 +49,19 @@ Arrangement arrange(std::vector<std::int64_t> frames, const Conditions& varied,
 /// Renders frames anew, finished as those of the campaign; which is only read.
 class Rerenderer {
  public:
-  /// `color` is null when labels come from geometry. All must outlive it.
-  Rerenderer(PreparedCampaign& prepared, const ColorManagement* color, RunObserver& observer)
-      : prepared_(prepared), color_(color), observer_(observer) {}
+  /// All must outlive it.
+  Rerenderer(PreparedCampaign& prepared, const RunSetup& setup, RunObserver& observer)
+      : prepared_(prepared), setup_(setup), observer_(observer) {}
 
-  /// Into a folder that becomes a campaign of these frames alone. What was there is removed. The
-  /// number of workers is the arrangement's. A frame that failed is no error: its row says why.
+  /// Into a folder that becomes a campaign of these frames alone. What was there is removed. With
+  /// `options` instead of the setup's; the number of workers is the arrangement's. A frame that
+  /// failed is no error: its row says why.
   Result<Campaign> render(const Arrangement& arrangement, RunOptions options,
                           const std::filesystem::path& folder);
 
  private:
   PreparedCampaign& prepared_;
-  const ColorManagement* color_;
+  const RunSetup& setup_;
   RunObserver& observer_;
 };
 

@@ -39,10 +39,10 @@ Result<std::uint64_t> expected_frame_bytes(const Campaign& campaign, const Campa
   return frames == 0 ? typical_frame_bytes(config) : sum / frames;
 }
 
-std::uint64_t room_for_attempts(const RunOptions& options) {
+std::uint64_t room_for_attempts(const RunSetup& setup) {
   // One is rendered, some wait to be finished; each takes its bytes twice for a while.
   constexpr std::uint64_t kFrames = 4;
-  return options.frame_bytes * kFrames * static_cast<std::uint64_t>(options.workers);
+  return setup.frame_bytes * kFrames * static_cast<std::uint64_t>(setup.options.pool.workers);
 }
 
 Result<std::uint64_t> free_bytes(const fs::path& folder) {

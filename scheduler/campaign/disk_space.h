@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "campaign/campaign.h"
-#include "campaign/campaign_run.h"
+#include "campaign/run_options.h"
 
 namespace seedframe {
 
@@ -18,7 +18,7 @@ std::uint64_t typical_frame_bytes(const CampaignConfig& config);
 Result<std::uint64_t> expected_frame_bytes(const Campaign& campaign, const CampaignConfig& config);
 
 /// Bytes that the attempts of a run under way may still take.
-std::uint64_t room_for_attempts(const RunOptions& options);
+std::uint64_t room_for_attempts(const RunSetup& setup);
 
 /// Bytes that we may still write to the file system of `folder`.
 Result<std::uint64_t> free_bytes(const std::filesystem::path& folder);

@@ -7,13 +7,14 @@ namespace seedframe {
 namespace fs = std::filesystem;
 
 LabelRun::LabelRun(Campaign& campaign, PreparedCampaign& prepared, Provenance& provenance,
-                   const RunOptions& options, RunObserver& observer)
+                   const RunSetup& setup, RunObserver& observer)
     : campaign_(campaign),
       prepared_(prepared),
       provenance_(provenance),
       observer_(observer),
-      frames_at_once_(options.workers),
-      finisher_(prepared.config.categories, prepared.config.labels.check, options.threads),
+      frames_at_once_(setup.options.pool.workers),
+      finisher_(prepared.config.categories, prepared.config.labels.check,
+                setup.options.pool.worker.threads),
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),

@@ -11,6 +11,7 @@
 #include "campaign/campaign_run.h"
 #include "campaign/finish_queue.h"
 #include "campaign/provenance.h"
+#include "campaign/run_options.h"
 #include "campaign/store_writer.h"
 #include "frames/frame_finisher.h"
 
@@ -18,10 +19,8 @@ namespace seedframe {
 
 class LabelRun : public CampaignRun {
  public:
-  /// Of the options, `workers` says how many frames are traced at once, and `threads` on how many
-  /// threads each.
   LabelRun(Campaign& campaign, PreparedCampaign& prepared, Provenance& provenance,
-           const RunOptions& options, RunObserver& observer);
+           const RunSetup& setup, RunObserver& observer);
   ~LabelRun() override;
 
   Result<RunSummary> run(const std::vector<PendingFrame>& frames) override;

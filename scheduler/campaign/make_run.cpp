@@ -6,12 +6,12 @@
 namespace seedframe {
 
 std::unique_ptr<CampaignRun> make_run(Campaign& campaign, PreparedCampaign& prepared,
-                                      const ColorManagement* color, Provenance& provenance,
-                                      const RunOptions& options, RunObserver& observer) {
-  if (color == nullptr) {
-    return std::make_unique<LabelRun>(campaign, prepared, provenance, options, observer);
+                                      Provenance& provenance, const RunSetup& setup,
+                                      RunObserver& observer) {
+  if (!setup.color) {
+    return std::make_unique<LabelRun>(campaign, prepared, provenance, setup, observer);
   }
-  return std::make_unique<RenderRun>(campaign, prepared, *color, provenance, options, observer);
+  return std::make_unique<RenderRun>(campaign, prepared, provenance, setup, observer);
 }
 
 }  // namespace seedframe

@@ -6,14 +6,13 @@
 #include "campaign/campaign.h"
 #include "campaign/campaign_run.h"
 #include "campaign/provenance.h"
-#include "image/color_management.h"
+#include "campaign/run_options.h"
 
 namespace seedframe {
 
-/// `color` is null when labels come from geometry, without Blender. All but the options must
-/// outlive the run.
+/// All but the setup must outlive the run.
 std::unique_ptr<CampaignRun> make_run(Campaign& campaign, PreparedCampaign& prepared,
-                                      const ColorManagement* color, Provenance& provenance,
-                                      const RunOptions& options, RunObserver& observer);
+                                      Provenance& provenance, const RunSetup& setup,
+                                      RunObserver& observer);
 
 }  // namespace seedframe

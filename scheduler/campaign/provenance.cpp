@@ -60,19 +60,20 @@ Result<std::string> hash_of_scripts(const std::filesystem::path& folder) {
 }
 
 /// What is the same for all attempts of a run.
-Result<Json> common_facts(const std::string& ocio_hash, const RunOptions& options) {
+Result<Json> common_facts(const std::string& ocio_hash, const RunSetup& setup) {
+  const WorkerOptions& worker = setup.options.pool.worker;
   Json facts = {{"seedframe", SEEDFRAME_VERSION},  {"frame_spec", kFrameSpecVersion},
                 {"manifest", kManifestVersion},    {"labels", kLabelsVersion},
                 {"libraries", library_versions()}, {"twin_isa", ray_tracing_isa()},
-                {"ocio_config_sha256", ocio_hash}, {"threads", options.threads}};
-  if (options.blender.program.empty()) return facts;
-  const Result<std::string> program = sha256_of_file(options.blender.program);
+                {"ocio_config_sha256", ocio_hash}, {"threads", worker.threads}};
+  if (!setup.color) return facts;
+  const Result<std::string> program = sha256_of_file(worker.blender);
   if (!program) return forward_error(program);
-  const Result<std::string> scripts = hash_of_scripts(options.scripts);
+  const Result<std::string> scripts = hash_of_scripts(worker.scripts);
   if (!scripts) return forward_error(scripts);
   facts["blender_sha256"] = *program;
   facts["scripts_sha256"] = *scripts;
-  facts["persistent_data"] = options.conditions.persistent_data;
+  facts["persistent_data"] = worker.conditions.persistent_data;
   return facts;
 }
 
@@ -91,7 +92,8 @@ std::string texture_name(const std::filesystem::path& file) {
 }
 
 Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCampaign& prepared,
-                                    const std::string& ocio_hash, const RunOptions& options) {
+                                    const RunSetup& setup) {
+  const std::string ocio_hash = setup.color ? setup.color->config_hash() : std::string();
   Json overrides = Json::array();
   for (const Override& change : prepared.source.overrides) {
     overrides.push_back(change.path + "=" + change.value);
@@ -118,7 +120,7 @@ Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCa
       return forward_error(merged);
     }
   }
-  Result<Json> common = common_facts(ocio_hash, options);
+  Result<Json> common = common_facts(ocio_hash, setup);
   if (!common) return forward_error(common);
   return Provenance(files.provenance(), std::move(json), std::move(*common));
 }

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "campaign/campaign.h"
-#include "campaign/campaign_run.h"
+#include "campaign/run_options.h"
 #include "render/message.h"
 
 namespace seedframe {
@@ -21,10 +21,9 @@ std::string texture_name(const std::filesystem::path& file);
 
 class Provenance {
  public:
-  /// Starts from what an earlier run wrote, if there is any. `ocio_hash` is empty when there are no
-  /// images.
+  /// Starts from what an earlier run wrote, if there is any.
   static Result<Provenance> load(const CampaignFiles& files, const PreparedCampaign& prepared,
-                                 const std::string& ocio_hash, const RunOptions& options);
+                                 const RunSetup& setup);
 
   /// Of attempts of this worker: canonical JSON. It goes into provenance.json if it is new.
   Result<std::string> of_worker(const ReadyMessage& ready);

@@ -15,7 +15,7 @@ constexpr int kFinishThreads = 2;
 
 /// What no worker needs, and none gets: so that a mad one takes neither memory nor disk from the
 /// others.
-ResourceLimits worker_limits(const RunOptions& options) {
+ResourceLimits worker_limits(const PoolOptions& options) {
   constexpr std::uint64_t kMostFrames = 10'000;  // of a worker that is never worn out
   constexpr std::uint64_t kLargestFile = 16ULL << 30;
   constexpr std::uint64_t kOpenFiles = 4096;
@@ -24,31 +24,21 @@ ResourceLimits worker_limits(const RunOptions& options) {
                                    : kMostFrames;
   const auto frame_s = static_cast<std::uint64_t>(options.frame_timeout.count() / 1000 + 1);
   return {.memory_bytes = static_cast<std::uint64_t>(system_memory_bytes()),
-          .cpu_s = (frames + 1) * frame_s * static_cast<std::uint64_t>(options.threads),
+          .cpu_s = (frames + 1) * frame_s * static_cast<std::uint64_t>(options.worker.threads),
           .file_bytes = kLargestFile,
           .open_files = kOpenFiles};
 }
 
+/// With what only the campaign's folder says.
 PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) {
-  PoolOptions pool;
-  pool.blender = options.blender.program;
-  pool.scripts = options.scripts;
-  pool.log_path = [files](int worker) { return files.worker_log(worker); };
-  pool.workers = options.workers;
-  pool.threads = options.threads;
-  pool.conditions = options.conditions;
-  pool.preload = options.preload;
-  pool.attempts = options.attempts;
-  pool.frame_timeout = options.frame_timeout;
-  pool.heartbeat_timeout = options.heartbeat_timeout;
-  pool.frames_per_worker = options.frames_per_worker;
-  pool.worker_memory_bytes = options.worker_memory_bytes;
-  pool.limits = worker_limits(options);
-  if (options.sandbox) pool.wrapper = sandbox_arguments(files.work());
+  PoolOptions pool = options.pool;
+  WorkerOptions& worker = pool.worker;
+  worker.log_path = [files](int number) { return files.worker_log(number); };
+  worker.limits = worker_limits(pool);
+  if (options.sandbox) worker.wrapper = sandbox_arguments(files.work());
   // A killed Blender leaves its temporary folder behind; here it goes with the rest of work/.
   std::error_code ignored;
-  pool.environment["TMPDIR"] = fs::absolute(files.work(), ignored).string();
-  for (const auto& [name, value] : options.environment) pool.environment[name] = value;
+  worker.environment.emplace("TMPDIR", fs::absolute(files.work(), ignored).string());
   return pool;
 }
 
@@ -70,23 +60,23 @@ Result<ColorManagement> load_color_management(const CampaignConfig& config,
   return color;
 }
 
-RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, const ColorManagement& color,
-                     Provenance& provenance, const RunOptions& options, RunObserver& observer)
+RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, Provenance& provenance,
+                     const RunSetup& setup, RunObserver& observer)
     : campaign_(campaign),
       prepared_(prepared),
-      color_(color),
+      color_(setup.color),
       provenance_(provenance),
       observer_(observer),
-      room_needed_(room_for_attempts(options)),
-      cache_(FrameCache::open(options.cache)),
-      take_from_cache_(options.take_from_cache),
+      room_needed_(room_for_attempts(setup)),
+      cache_(FrameCache::open(setup.cache)),
+      take_from_cache_(!setup.options.no_cache),
       finisher_(prepared.config.categories, prepared.config.labels.check,
                 1),  // the cores are the workers'
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),
       queue_(std::make_unique<FinishQueue>(kFinishThreads)),
-      pool_(std::make_unique<WorkerPool>(pool_options(options, campaign.files), *this)) {}
+      pool_(std::make_unique<WorkerPool>(pool_options(setup.options, campaign.files), *this)) {}
 
 RenderRun::~RenderRun() {
   queue_.reset();
@@ -197,12 +187,12 @@ void RenderRun::rendered(const FrameJob& job, const RenderTimings& timings, int)
 
 void RenderRun::load_view_tables() {
   // An error comes again with the first frame.
-  (void)color_.apply(Image<float>(1, 1, 4), prepared_.config.image.settings);
+  (void)color_->apply(Image<float>(1, 1, 4), prepared_.config.image.settings);
 }
 
 void RenderRun::finish(const FrameJob& job, const RenderTimings& timings, const FinishTask& task) {
   const auto start = std::chrono::steady_clock::now();
-  const Result<FinishedFrame> finished = finisher_.finish(task, color_);
+  const Result<FinishedFrame> finished = finisher_.finish(task, *color_);
   const std::chrono::duration<double> finish_time = std::chrono::steady_clock::now() - start;
   if (!finished) {
     pool_->post_verdict(job, forward_error(finished));

@@ -15,6 +15,7 @@
 #include "campaign/finish_queue.h"
 #include "campaign/frame_cache.h"
 #include "campaign/provenance.h"
+#include "campaign/run_options.h"
 #include "campaign/store_writer.h"
 #include "frames/frame_finisher.h"
 #include "image/color_management.h"
@@ -27,8 +28,8 @@ Result<ColorManagement> load_color_management(const CampaignConfig& config,
 
 class RenderRun : public CampaignRun, public RenderClient {
  public:
-  RenderRun(Campaign& campaign, PreparedCampaign& prepared, const ColorManagement& color,
-            Provenance& provenance, const RunOptions& options, RunObserver& observer);
+  RenderRun(Campaign& campaign, PreparedCampaign& prepared, Provenance& provenance,
+            const RunSetup& setup, RunObserver& observer);
   ~RenderRun() override;
 
   Result<RunSummary> run(const std::vector<PendingFrame>& frames) override;
@@ -61,7 +62,7 @@ class RenderRun : public CampaignRun, public RenderClient {
 
   Campaign& campaign_;
   PreparedCampaign& prepared_;
-  const ColorManagement& color_;
+  std::shared_ptr<const ColorManagement> color_;
   Provenance& provenance_;
   RunObserver& observer_;
   std::uint64_t room_needed_;          ///< bytes that frames under way may still take

@@ -33,7 +33,7 @@ struct AuditArguments {
   std::string vary;
   std::vector<std::string> allowed;
   AuditOptions options;
-  RunArguments run;
+  RunOptions run;
   bool json = false;
 };
 
@@ -129,8 +129,7 @@ int audit(AuditArguments& arguments) {
     if (!setup) return report(setup.error());
   }
   if (Status taken = take_folder(options.folder); !taken) return report(taken.error());
-  Auditor auditor(*campaign, *prepared, setup->color ? &*setup->color : nullptr, setup->options,
-                  options);
+  Auditor auditor(*campaign, *prepared, *setup, options);
   if (Status looked = auditor.look(); !looked) return report(looked.error());
   const auto exports = audit_exports(*campaign, *prepared);
   if (!exports) return report(exports.error());
@@ -187,9 +186,9 @@ void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("-o,--output", arguments->output,
                    "folder for the report (default: audit/ in the campaign's)");
   add_tolerance_options(*verb, options.tolerance);
-  verb->add_option("--blender", arguments->run.blender,
-                   "Blender to render with: a path, or a name in PATH")
-      ->capture_default_str();
+  std::filesystem::path& blender = arguments->run.pool.worker.blender;
+  verb->add_option("--blender", blender, "Blender to render with: a path, or a name in PATH")
+      ->default_str(blender.string());
   add_allow_option(*verb, arguments->allowed);
   verb->add_flag("--quiet", arguments->run.quiet, "no progress");
   verb->add_flag("--json", arguments->json, "print report.json instead of a summary");

@@ -21,7 +21,7 @@ struct ResumeArguments {
   std::vector<std::int64_t> frames;
   std::vector<std::string> allowed;
   bool verify = false;
-  RunArguments run;
+  RunOptions run;
 };
 
 void print_renewed(const RenewedFrames& renewed) {
@@ -82,8 +82,8 @@ int resume(ResumeArguments arguments) {
   Result<RunSetup> setup = set_up_run(arguments.run, prepared->config,
                                       static_cast<std::int64_t>(state->to_render.size()));
   if (!setup) return report(setup.error());
-  if (!arguments.frames.empty()) setup->options.take_from_cache = false;  // "render", it says
-  return run_campaign(*campaign, *prepared, *setup, std::move(state->to_render), arguments.run);
+  if (!arguments.frames.empty()) setup->options.no_cache = true;  // "render", it says
+  return run_campaign(*campaign, *prepared, *setup, std::move(state->to_render));
 }
 
 }  // namespace

@@ -73,16 +73,15 @@ std::string describe_work(const CampaignConfig& config, std::size_t frames) {
                      render.height, render.samples);
 }
 
-Status check_room(const Campaign& campaign, const RunOptions& options, std::size_t frames,
-                  const RunArguments& arguments) {
+Status check_room(const Campaign& campaign, const RunSetup& setup, std::size_t frames) {
   const Result<std::uint64_t> free = free_bytes(campaign.files.root());
   if (!free) return forward_error(free);
-  const std::uint64_t needed = options.frame_bytes * frames;
-  if (!arguments.quiet && frames > 0) {
+  const std::uint64_t needed = setup.frame_bytes * frames;
+  if (!setup.options.quiet && frames > 0) {
     std::fprintf(stderr, "they take about %s; %s are free\n", bytes_text(needed).c_str(),
                  bytes_text(*free).c_str());
   }
-  if (arguments.no_space_check || needed <= *free) return {};
+  if (setup.options.no_space_check || needed <= *free) return {};
   return fail(ErrorKind::kEnvironment,
               "{}: {} frames take about {}, and {} are free: make room, or start with "
               "--no-space-check, which pauses when the disk is full",
@@ -91,13 +90,10 @@ Status check_room(const Campaign& campaign, const RunOptions& options, std::size
 
 Result<RunSummary> run_once(Campaign& campaign, PreparedCampaign& prepared, const RunSetup& setup,
                             const std::vector<PendingFrame>& frames, Progress& progress) {
-  Result<Provenance> provenance =
-      Provenance::load(campaign.files, prepared,
-                       setup.color ? setup.color->config_hash() : std::string(), setup.options);
+  Result<Provenance> provenance = Provenance::load(campaign.files, prepared, setup);
   if (!provenance) return forward_error(provenance);
   if (Status written = provenance->write(); !written) return forward_error(written);
-  const auto run = make_run(campaign, prepared, setup.color ? &*setup.color : nullptr, *provenance,
-                            setup.options, progress);
+  const auto run = make_run(campaign, prepared, *provenance, setup, progress);
   const RunUnderWay under_way(*run);
   return run->run(frames);
 }
@@ -122,12 +118,12 @@ Result<std::vector<PendingFrame>> take_up_again(Campaign& campaign,
 }
 
 /// Waits until the disk takes data again; false when that took too long, or a signal came.
-bool wait_for_room(const Campaign& campaign, const RunOptions& options, double limit_s) {
+bool wait_for_room(const Campaign& campaign, const RunSetup& setup, double limit_s) {
   constexpr auto kLook = std::chrono::milliseconds(500);
   const auto limit =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit_s));
   const auto deadline = Clock::now() + limit;
-  const std::uint64_t needed = room_for_attempts(options);
+  const std::uint64_t needed = room_for_attempts(setup);
   while (Clock::now() < deadline && !DrainOnSignals::interrupted()) {
     std::this_thread::sleep_for(kLook);
     if (check_disk(campaign.files, needed)) return !DrainOnSignals::interrupted();
@@ -138,16 +134,16 @@ bool wait_for_room(const Campaign& campaign, const RunOptions& options, double l
 /// A pause: from the error that made it to the frames that are still to be done, or an error when
 /// it is not to be waited for any longer.
 Result<std::vector<PendingFrame>> pause(Campaign& campaign, const RunSetup& setup,
-                                        const std::vector<PendingFrame>& frames, const Error& why,
-                                        const RunArguments& arguments) {
+                                        const std::vector<PendingFrame>& frames, const Error& why) {
+  const double limit_s = setup.options.pause_limit_s;
   std::fprintf(stderr, "seedframe: paused: %s\n", why.message.c_str());
   std::fprintf(stderr, "seedframe: waiting up to %s for it to pass; Ctrl-C ends\n",
-               duration_text(arguments.pause_limit_s).c_str());
+               duration_text(limit_s).c_str());
   Result<std::vector<PendingFrame>> left = tl::unexpected(why);
   const auto start = std::chrono::steady_clock::now();
   while (true) {
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
-    if (!wait_for_room(campaign, setup.options, arguments.pause_limit_s - waited.count())) break;
+    if (!wait_for_room(campaign, setup, limit_s - waited.count())) break;
     left = take_up_again(campaign, frames);
     if (left || left.error().kind != ErrorKind::kExhausted) break;
   }
@@ -191,31 +187,32 @@ int print_outcome(Campaign& campaign, std::int64_t done_before, std::int64_t fro
 }  // namespace
 
 int run_campaign(Campaign& campaign, PreparedCampaign& prepared, RunSetup& setup,
-                 std::vector<PendingFrame> frames, const RunArguments& arguments) {
+                 std::vector<PendingFrame> frames) {
+  const RunOptions& options = setup.options;
   const Result<FrameCounts> before = campaign.store.counts();
   if (!before) return report(before.error());
   const Result<std::uint64_t> frame_bytes = expected_frame_bytes(campaign, prepared.config);
   if (!frame_bytes) return report(frame_bytes.error());
-  setup.options.frame_bytes = *frame_bytes;
-  if (!arguments.quiet && !frames.empty()) {
+  setup.frame_bytes = *frame_bytes;
+  if (!options.quiet && !frames.empty()) {
     std::fprintf(stderr, "%s into %s: %s\n", describe_work(prepared.config, frames.size()).c_str(),
                  campaign.files.root().c_str(), describe(setup).c_str());
   }
-  if (Status room = check_room(campaign, setup.options, frames.size(), arguments); !room) {
+  if (Status room = check_room(campaign, setup, frames.size()); !room) {
     return report(room.error());
   }
   const auto start = std::chrono::steady_clock::now();
   Progress progress(static_cast<std::int64_t>(frames.size()), before->done,
-                    arguments.quiet || frames.empty());
+                    options.quiet || frames.empty());
   const DrainOnSignals drain;
   Result<RunSummary> summary = run_once(campaign, prepared, setup, frames, progress);
   int fruitless = 0;  // pauses in a row after which nothing was done: waiting does not help
   constexpr int kMostFruitless = 3;
-  while (!summary && summary.error().kind == ErrorKind::kExhausted &&
-         arguments.pause_limit_s > 0.0 && fruitless < kMostFruitless) {
+  while (!summary && summary.error().kind == ErrorKind::kExhausted && options.pause_limit_s > 0.0 &&
+         fruitless < kMostFruitless) {
     progress.finish();
     const std::int64_t done = progress.done();
-    auto left = pause(campaign, setup, frames, summary.error(), arguments);
+    auto left = pause(campaign, setup, frames, summary.error());
     if (!left) {
       summary = forward_error(left);
       break;

@@ -13,6 +13,6 @@ namespace seedframe {
 /// back, and goes on with what is missing. Returns the exit code. `campaign` is opened anew after a
 /// pause.
 int run_campaign(Campaign& campaign, PreparedCampaign& prepared, RunSetup& setup,
-                 std::vector<PendingFrame> frames, const RunArguments& arguments);
+                 std::vector<PendingFrame> frames);
 
 }  // namespace seedframe

@@ -23,7 +23,7 @@ struct SubmitArguments {
   std::vector<std::string> allowed;
   std::int64_t frames = 0;
   bool dry_run = false;
-  RunArguments run;
+  RunOptions run;
 };
 
 Result<PreparedCampaign> prepare_submission(const SubmitArguments& arguments) {
@@ -80,7 +80,7 @@ int submit(const SubmitArguments& arguments) {
   if (Status begun = begin_run(campaign); !begun) return report(begun.error());
   std::vector<PendingFrame> pending;
   for (std::int64_t frame = 0; frame < wanted; ++frame) pending.push_back({frame});
-  return run_campaign(campaign, *prepared, *setup, std::move(pending), arguments.run);
+  return run_campaign(campaign, *prepared, *setup, std::move(pending));
 }
 
 }  // namespace

@@ -56,8 +56,8 @@ std::string describe_wait_status(const std::optional<int>& status);
 Result<std::string> output_of(const std::vector<std::string>& arguments,
                               std::chrono::milliseconds longest);
 
-/// Our environment without what would change how Blender or its Python behave, with `changes` on
-/// top.
+/// Our environment without what would change how Blender or its Python behave (PATH, PYTHON*,
+/// BLENDER_USER_*, OCIO), with `changes` on top.
 std::vector<std::string> worker_environment(
     const std::vector<std::pair<std::string, std::string>>& changes);
 

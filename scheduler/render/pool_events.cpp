@@ -88,10 +88,10 @@ bool WorkerPool::Loop::take_ready(Worker& worker, const ReadyMessage& ready) {
     stop_run({ErrorKind::kEnvironment,
               fmt::format("the worker in {} speaks protocol {}, this program {}: the two are of "
                           "different versions of Seedframe",
-                          options_.scripts.string(), ready.protocol, kWorkerProtocol)});
+                          options_.worker.scripts.string(), ready.protocol, kWorkerProtocol)});
     return false;
   }
-  if (Status fits = check_worker(options_.conditions, ready); !fits) {
+  if (Status fits = check_worker(options_.worker.conditions, ready); !fits) {
     stop_run(fits.error());
     return false;
   }

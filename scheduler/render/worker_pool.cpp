@@ -89,17 +89,7 @@ void WorkerPool::Loop::start_workers(Schedule& schedule) {
 }
 
 void WorkerPool::Loop::start(Worker& worker) {
-  WorkerCommand command;
-  command.blender = options_.blender;
-  command.scripts = options_.scripts;
-  command.log = options_.log_path(worker.number);
-  command.threads = options_.threads;
-  command.persistent_data = options_.conditions.persistent_data;
-  command.environment = options_.environment;
-  command.environment.merge(environment_of(options_.conditions, options_.preload));
-  command.wrapper = options_.wrapper;
-  command.limits = options_.limits;
-  Result<std::unique_ptr<WorkerProcess>> process = WorkerProcess::start(command);
+  auto process = WorkerProcess::start(options_.worker, worker.number);
   if (!process) return stop_run(process.error());
   const int number = worker.number;
   worker = Worker{};

@@ -3,54 +3,37 @@
 
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "render/child_process.h"
 #include "render/frame_job.h"
 #include "render/memory.h"
 #include "render/message.h"
 #include "render/schedule.h"
-#include "render/worker_conditions.h"
+#include "render/worker_options.h"
 
 namespace seedframe {
 
 struct PoolOptions {
-  std::filesystem::path blender;  ///< absolute: BlenderInfo::program
-  std::filesystem::path scripts;  ///< the folder blender_scripts/
-  /// The log of each worker; its folder exists. CampaignFiles::worker_log fits.
-  std::function<std::filesystem::path(int worker)> log_path;
-
   int workers = 1;
-  int threads = 1;  ///< of each worker
-  /// A worker that cannot keep them ends the run.
-  WorkerConditions conditions;
-  std::filesystem::path preload;  ///< see environment_of; empty: nothing is
+  /// A worker that cannot keep its conditions ends the run.
+  WorkerOptions worker;
   AttemptLimits attempts;
   std::chrono::milliseconds frame_timeout = std::chrono::seconds(600);  ///< see FrameTimeout
   std::chrono::milliseconds start_timeout = std::chrono::seconds(120);
   /// A worker that says nothing for so long hangs, whatever it may still take over its frame.
   std::chrono::milliseconds heartbeat_timeout = std::chrono::seconds(120);
   /// A worker is replaced after so many frames; 0: never.
-  int frames_per_worker = 0;
+  int frames_per_worker = 2000;
   /// A worker that has grown above this (resident, bytes) is replaced after its frame; 0: never.
   std::int64_t worker_memory_bytes = 0;
-  ResourceLimits limits;  ///< that no worker gets beyond
   /// No new frame starts while so many wait for their verdict, which bounds the disk they take.
   int max_unjudged = 64;
-  std::vector<std::string> wrapper;  ///< see WorkerCommand
   /// Processes that the kernel has killed for lack of memory since it started.
   std::function<std::int64_t()> out_of_memory_kills = system_out_of_memory_kills;
-
-  /// Set in the workers' environment on top of ours and of what the conditions ask for. Of ours,
-  /// PATH, PYTHON*, BLENDER_USER_* and OCIO are not handed on.
-  std::map<std::string, std::string> environment;
 };
 
 /// What the pool asks and tells. All calls come from the thread that is in WorkerPool::run and must

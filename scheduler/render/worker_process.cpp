@@ -62,22 +62,20 @@ struct Pipes {
   }
 };
 
-}  // namespace
-
-std::vector<std::string> worker_arguments(const WorkerCommand& command) {
+std::vector<std::string> arguments_of(const WorkerOptions& options) {
   const std::string channel = std::to_string(kChildChannel);
-  std::vector<std::string> arguments = command.wrapper;
-  const std::vector<std::string> own = {command.blender.string(),
+  std::vector<std::string> arguments = options.wrapper;
+  const std::vector<std::string> own = {options.blender.string(),
                                         "--background",
                                         "--factory-startup",
                                         "--disable-autoexec",
                                         "-noaudio",
                                         "--threads",
-                                        std::to_string(command.threads),
+                                        std::to_string(options.threads),
                                         "--python-exit-code",
                                         "3",
                                         "--python",
-                                        (command.scripts / "render_worker.py").string(),
+                                        (options.scripts / "render_worker.py").string(),
                                         "--",
                                         "--read-fd",
                                         channel,
@@ -86,22 +84,31 @@ std::vector<std::string> worker_arguments(const WorkerCommand& command) {
                                         "--cpus",
                                         fmt::format("{}", fmt::join(allowed_cpus(), ","))};
   arguments.insert(arguments.end(), own.begin(), own.end());
-  if (command.persistent_data) arguments.emplace_back("--persistent-data");
+  if (options.conditions.persistent_data) arguments.emplace_back("--persistent-data");
   return arguments;
 }
 
-Result<std::unique_ptr<WorkerProcess>> WorkerProcess::start(const WorkerCommand& command) {
-  Result<WorkerLog> log = WorkerLog::open(command.log);
+std::vector<std::string> whole_environment(const WorkerOptions& options) {
+  std::map<std::string, std::string> changes = options.environment;
+  changes.merge(environment_of(options.conditions, options.preload));
+  return worker_environment({changes.begin(), changes.end()});
+}
+
+}  // namespace
+
+Result<std::unique_ptr<WorkerProcess>> WorkerProcess::start(const WorkerOptions& options,
+                                                            int number) {
+  Result<WorkerLog> log = WorkerLog::open(options.log_path(number));
   if (!log) return forward_error(log);
   Pipes pipes;
   if (Status made = pipes.make(); !made) return forward_error(made);
   ChildCommand child;
-  child.arguments = worker_arguments(command);
-  child.environment = worker_environment({command.environment.begin(), command.environment.end()});
+  child.arguments = arguments_of(options);
+  child.environment = whole_environment(options);
   child.output = pipes.log[1];
   child.channel = pipes.channel[1];
   child.cpu = next_start_cpu();
-  child.limits = command.limits;
+  child.limits = options.limits;
   const Result<pid_t> pid = start_child(child);
   if (!pid) return forward_error(pid);
   const int pid_fd = static_cast<int>(syscall(SYS_pidfd_open, *pid, 0));  // close-on-exec by itself

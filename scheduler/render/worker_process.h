@@ -2,8 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,24 +10,10 @@
 #include <sys/types.h>
 
 #include "base/error.h"
-#include "render/child_process.h"
 #include "render/worker_log.h"
+#include "render/worker_options.h"
 
 namespace seedframe {
-
-struct WorkerCommand {
-  std::filesystem::path blender;
-  std::filesystem::path scripts;
-  std::filesystem::path log;  ///< is appended to
-  int threads = 1;
-  bool persistent_data = false;                    ///< see WorkerConditions
-  std::map<std::string, std::string> environment;  ///< on top of worker_environment
-  std::vector<std::string> wrapper;                ///< a program that starts it, see sandbox.h
-  ResourceLimits limits;
-};
-
-/// The command line, for logs and for `seedframe explain`.
-std::vector<std::string> worker_arguments(const WorkerCommand& command);
 
 /// How a worker ended.
 struct WorkerEnd {
@@ -41,9 +25,9 @@ class WorkerProcess {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Returns at once; that the program could be executed shows only by its "ready". The worker dies
-  /// with the calling thread.
-  static Result<std::unique_ptr<WorkerProcess>> start(const WorkerCommand& command);
+  /// Worker `number` of a pool. Returns at once; that the program could be executed shows only by
+  /// its "ready". The worker dies with the calling thread.
+  static Result<std::unique_ptr<WorkerProcess>> start(const WorkerOptions& options, int number);
   /// Kills it if it has not ended.
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;

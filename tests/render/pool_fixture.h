@@ -114,9 +114,11 @@ class PoolTest : public testing::Test {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     client = std::make_unique<RecordingClient>(folder);
-    options.blender = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
-    options.scripts = SEEDFRAME_HOME "/blender_scripts";
-    options.log_path = [this](int worker) { return folder / fmt::format("worker-{}.log", worker); };
+    options.worker.blender = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
+    options.worker.scripts = SEEDFRAME_HOME "/blender_scripts";
+    options.worker.log_path = [this](int worker) {
+      return folder / fmt::format("worker-{}.log", worker);
+    };
     // Long enough for a busy machine: only a test that wants a timeout sets a short one.
     options.frame_timeout = std::chrono::seconds(60);
   }
@@ -125,7 +127,7 @@ class PoolTest : public testing::Test {
   /// `wishes` is SEEDFRAME_FAKE without the log of starts.
   void make_pool(Json wishes = Json::object()) {
     wishes["starts_log"] = starts_log().string();
-    options.environment["SEEDFRAME_FAKE"] = wishes.dump();
+    options.worker.environment["SEEDFRAME_FAKE"] = wishes.dump();
     pool = std::make_unique<WorkerPool>(options, *client);
     if (!client->on_rendered) {
       client->on_rendered = [this](const FrameJob& job) {

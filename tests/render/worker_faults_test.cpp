@@ -141,7 +141,7 @@ TEST_F(PoolTest, AWorkerThatHasGrownTooLargeIsReplacedAfterItsFrame) {
 }
 
 TEST_F(PoolTest, AWorkerGetsNoMoreMemoryThanItsLimit) {
-  options.limits.memory_bytes = 1 << 20;
+  options.worker.limits.memory_bytes = 1 << 20;
   make_pool();
   const auto summary = run(1);
   ASSERT_FALSE(summary) << "not even Python starts in a megabyte";
@@ -226,7 +226,7 @@ TEST_F(PoolTest, AHangingStartCountsAsAFailedOne) {
 }
 
 TEST_F(PoolTest, AProgramThatCannotBeStartedIsNamed) {
-  options.blender = folder / "no-blender";
+  options.worker.blender = folder / "no-blender";
   make_pool();
   const auto summary = run(1);
   ASSERT_FALSE(summary);

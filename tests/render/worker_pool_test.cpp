@@ -208,8 +208,8 @@ TEST_F(PoolTest, TheWorkersEnvironmentIsSanitised) {
   const auto script = folder / "env_blender";
   std::ofstream(script) << "#!/bin/sh\nenv\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  options.blender = script;
-  options.environment["CYCLES_CPU_NO_AVX2"] = "1";
+  options.worker.blender = script;
+  options.worker.environment["CYCLES_CPU_NO_AVX2"] = "1";
   make_pool();
   const auto summary = run(1);
   unsetenv("PYTHONPATH");
@@ -231,7 +231,7 @@ TEST_F(PoolTest, WorkersInheritNoOtherFile) {
   const auto script = folder / "ls_blender";
   std::ofstream(script) << "#!/bin/sh\nls -l /proc/$$/fd\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  options.blender = script;
+  options.worker.blender = script;
   make_pool();
   EXPECT_FALSE(run(1));
   close(secret);
@@ -252,8 +252,8 @@ TEST_F(PoolTest, ASandboxedWorkerWritesOnlyWhereItMayAndHasNoNetwork) {
                         << "cat /proc/net/dev | grep -c : \n"
                         << "echo process $$\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  options.blender = script;
-  options.wrapper = sandbox_arguments(folder / "work");
+  options.worker.blender = script;
+  options.worker.wrapper = sandbox_arguments(folder / "work");
   make_pool();
   EXPECT_FALSE(run(1));
   std::ifstream log(folder / "worker-0.log");
@@ -268,7 +268,7 @@ TEST_F(PoolTest, ASandboxedWorkerWritesOnlyWhereItMayAndHasNoNetwork) {
 
 TEST_F(PoolTest, ASandboxedWorkerRendersAndDiesWithTheOthers) {
   if (const Status works = check_sandbox(); !works) GTEST_SKIP() << works.error().message;
-  options.wrapper = sandbox_arguments(folder);
+  options.worker.wrapper = sandbox_arguments(folder);
   options.heartbeat_timeout = std::chrono::seconds(2);
   make_pool({{"crash_frames", {1}}, {"freeze_frames", {2}}});
   const auto summary = run(4);

@@ -36,13 +36,13 @@ class Renderer : public RenderClient {
     const auto blender = probe_blender();
     if (!blender) give_up(blender.error().message);
     PoolOptions options;
-    options.blender = blender->program;
-    options.scripts = scripts;
-    options.log_path = [this](int) { return folder_ / "worker.log"; };
-    options.threads = 2;
+    options.worker.blender = blender->program;
+    options.worker.scripts = scripts;
+    options.worker.log_path = [this](int) { return folder_ / "worker.log"; };
+    options.worker.threads = 2;
     options.attempts = {1, 1};
     const auto& origin = scenes.blender_origin_m;
-    options.environment["SEEDFRAME_STABILITY_ORIGIN"] =
+    options.worker.environment["SEEDFRAME_STABILITY_ORIGIN"] =
         fmt::format("{},{},{}", origin[0], origin[1], origin[2]);
     pool_ = std::make_unique<WorkerPool>(options, *this);
   }

@@ -154,13 +154,13 @@ class RealBlender : public testing::Test, public RenderClient {
     const Result<BlenderInfo> blender = probe_blender();
     if (!blender) return forward_error(blender);
     PoolOptions options;
-    options.blender = blender->program;
-    options.scripts = SEEDFRAME_HOME "/blender_scripts";
-    options.log_path = [this](int) { return folder / "worker.log"; };
-    options.threads = threads;
+    options.worker.blender = blender->program;
+    options.worker.scripts = SEEDFRAME_HOME "/blender_scripts";
+    options.worker.log_path = [this](int) { return folder / "worker.log"; };
+    options.worker.threads = threads;
     options.frames_per_worker = frames_per_worker;
-    options.conditions = conditions;
-    options.preload =
+    options.worker.conditions = conditions;
+    options.worker.preload =
         std::filesystem::path(SEEDFRAME_PROGRAM).parent_path() / "seedframe_worker_cpu.so";
     options.attempts = {1, 1};
     pool = std::make_unique<WorkerPool>(options, *this);

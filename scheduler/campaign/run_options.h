@@ -1,0 +1,37 @@
+// What a run is asked for, and what has been found and checked for it before it starts.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "image/color_management.h"
+#include "render/blender_info.h"
+#include "render/worker_pool.h"
+
+namespace seedframe {
+
+/// The options of submit and resume, which set its members; an audit varies them.
+struct RunOptions {
+  RunOptions() { pool.workers = pool.worker.threads = 0; }
+
+  /// Workers, their threads and their memory are chosen by set_up_run where they are 0. Without
+  /// Blender `workers` are the frames that are traced at once, and `threads` those of each.
+  PoolOptions pool;
+  bool sandbox = false;        ///< see sandbox.h
+  bool no_cache = false;       ///< take no frame from the cache; frames are added all the same
+  double pause_limit_s = 600;  ///< to wait for room when the disk is full; 0: not at all
+  bool no_space_check = false;
+  bool quiet = false;
+};
+
+struct RunSetup {
+  RunOptions options;   ///< with every choice made, and Blender's absolute path
+  BlenderInfo blender;  ///< of no meaning when nothing is rendered
+  /// None: labels by geometry, and Blender is not needed.
+  std::shared_ptr<const ColorManagement> color;
+  std::filesystem::path cache;    ///< folder of the FrameCache; empty: there is none
+  std::uint64_t frame_bytes = 0;  ///< that a frame takes on the disk, about
+};
+
+}  // namespace seedframe

@@ -1,0 +1,30 @@
+// How workers of this machine are started.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "render/child_process.h"
+#include "render/worker_conditions.h"
+
+namespace seedframe {
+
+struct WorkerOptions {
+  std::filesystem::path blender = "blender";  ///< to be started: absolute (BlenderInfo::program)
+  std::filesystem::path scripts;              ///< the folder blender_scripts/
+  std::filesystem::path preload;              ///< see environment_of; empty: nothing is
+  int threads = 1;
+  WorkerConditions conditions;
+  /// Set in a worker's environment on top of worker_environment and environment_of.
+  std::map<std::string, std::string> environment;
+  std::vector<std::string> wrapper;  ///< a program that starts it, see sandbox.h
+  ResourceLimits limits;             ///< that no worker gets beyond
+  /// The log of each worker, which is appended to; its folder exists. CampaignFiles::worker_log
+  /// fits.
+  std::function<std::filesystem::path(int worker)> log_path;
+};
+
+}  // namespace seedframe
