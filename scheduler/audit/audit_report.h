@@ -5,17 +5,10 @@
 #include <vector>
 
 #include "audit/audit.h"
+#include "audit/export_check.h"
 #include "base/canonical_json.h"
 
 namespace seedframe {
-
-/// What became of one export when it was compared with its source.
-struct AuditedExport {
-  std::string format;
-  std::int64_t frames = 0;
-  std::int64_t differences = 0;
-  std::vector<std::string> first_differences;  ///< or why it could not be compared
-};
 
 /// report.json; docs/formats/audit.md.
 Json to_json(const Audit& audit, const std::vector<AuditedExport>& exports);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <thread>
 
+#include "base/cores.h"
 #include "base/files.h"
 #include "campaign/make_run.h"
 
@@ -15,8 +15,6 @@ constexpr int kMostBefore = 8;
 
 /// Other kernels than Cycles takes by itself on any CPU of the last decade.
 constexpr Isa kOtherIsa = Isa::kAvx;
-
-int cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
 /// Rows for the store of a campaign of these frames alone.
 Status add_rows(const std::vector<std::int64_t>& frames, PreparedCampaign& prepared,
@@ -64,7 +62,7 @@ RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
   for (const Condition condition : varied) {
     switch (condition) {
       case Condition::kThreads:
-        options.pool.worker.threads = options.pool.worker.threads == 1 ? std::max(2, cores()) : 1;
+        options.pool.worker.threads = options.pool.worker.threads == 1 ? std::max(2, core_count()) : 1;
         break;
       case Condition::kWorkers:
         options.pool.workers = options.pool.workers == kWorkers ? kWorkers - 1 : kWorkers;

@@ -2,7 +2,6 @@
 
 #include "base/files.h"
 #include "base/sha256.h"
-#include "frames/campaign_files.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -20,18 +19,6 @@ CREATE TABLE IF NOT EXISTS frames_1 (
 ) WITHOUT ROWID;
 )sql";
 
-Status link_or_copy(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::create_hard_link(from, to, error);
-  if (!error) return {};
-  fs::copy_file(from, to, error);
-  if (error) {
-    return fail(kind_of_errno(error.value()), "cannot copy {} to {}: {}", from.string(),
-                to.string(), error.message());
-  }
-  return {};
-}
-
 }  // namespace
 
 std::string cache_key(const Json& provenance, const CampaignConfig& config) {
@@ -42,22 +29,6 @@ std::string cache_key(const Json& provenance, const CampaignConfig& config) {
       {"made_with", made_with},
       {"categories", config.categories},
       {"check", {check.wanted, check.tolerance.inside_share, check.tolerance.outline_share}}}));
-}
-
-Result<Manifest> link_frame(const fs::path& committed, const std::string& frame_id,
-                            const fs::path& folder) {
-  Result<Manifest> manifest = verify_frame(committed, frame_id, VerifyDepth::kContents);
-  if (!manifest) return manifest;
-  Status linked = link_or_copy(committed / frame_files::kManifest, folder / frame_files::kManifest);
-  for (const auto& [name, file] : manifest->files) {
-    if (linked) linked = link_or_copy(committed / name, folder / name);
-  }
-  if (linked) return manifest;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    fs::remove(entry.path(), ignored);
-  }
-  return forward_error(linked);
 }
 
 std::unique_ptr<FrameCache> FrameCache::open(const fs::path& folder) {

@@ -11,7 +11,6 @@
 #include "base/canonical_json.h"
 #include "base/error.h"
 #include "config/campaign_config.h"
-#include "frames/manifest.h"
 #include "store/sqlite.h"
 
 namespace seedframe {
@@ -20,12 +19,6 @@ namespace seedframe {
 /// attempt but for threads, which change no pixel, and what of the config decides over labels and
 /// over whether a frame is accepted. 64 hex digits.
 std::string cache_key(const Json& provenance, const CampaignConfig& config);
-
-/// Hard links, or copies on another file system, of a committed frame's files into `folder`, which
-/// exists and is empty. All of them are read and compared with their manifest first; an error says
-/// what is wrong, and nothing is there then.
-Result<Manifest> link_frame(const std::filesystem::path& committed, const std::string& frame_id,
-                            const std::filesystem::path& folder);
 
 /// One SQLite file, for all processes of the user. Nothing here is an error: a cache that cannot be
 /// used is empty. From any thread.

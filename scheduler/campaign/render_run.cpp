@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "campaign/color_config.h"
 #include "campaign/disk_space.h"
+#include "frames/frame_link.h"
 #include "render/sandbox.h"
 
 namespace seedframe {

@@ -4,24 +4,21 @@
 
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include "audit/audit_report.h"
+#include "base/cores.h"
 #include "base/files.h"
 #include "base/message_text.h"
 #include "cli/allow_option.h"
-#include "cli/campaign_dataset.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/progress.h"
 #include "cli/run_options.h"
 #include "cli/tolerance_options.h"
 #include "cli/verb.h"
-#include "export/export_index.h"
-#include "export/export_run.h"
-#include "export/verify.h"
+#include "export/campaign_dataset.h"
 #include "formats/formats.h"
 
 namespace seedframe {
@@ -61,38 +58,11 @@ Result<Conditions> conditions_to_vary(const AuditArguments& arguments,
   return conditions;
 }
 
-Result<std::vector<AuditedExport>> audit_exports(const Campaign& campaign,
-                                                 const PreparedCampaign& prepared) {
-  std::vector<AuditedExport> exports;
-  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const auto dataset = campaign_dataset(campaign, prepared);
-  if (!dataset) return forward_error(dataset);
-  for (const FormatEntry& format : export_formats()) {
-    const auto folder = campaign.files.exports() / format.name;
-    std::error_code error;
-    if (!std::filesystem::exists(folder / kMarkerFile, error)) continue;
-    AuditedExport& each = exports.emplace_back();
-    each.format = format.name;
-    const Result<VerifySummary> summary =
-        verify_export(dataset->dataset, export_formats(), folder, threads);
-    if (summary) {
-      each.frames = summary->frames;
-      each.differences = summary->differences;
-      each.first_differences = summary->first_differences;
-    } else {
-      each.differences = 1;
-      each.first_differences = {summary.error().message};
-    }
-  }
-  return exports;
-}
-
-bool is_good(const AuditedExport& each) { return each.first_differences.empty(); }
-
 /// Files and exports that are not as they were written outweigh how a frame comes out today.
 ExitCode exit_code_of(const Audit& audit, const std::vector<AuditedExport>& exports) {
-  const bool whole =
-      audit.files.problems.empty() && std::all_of(exports.begin(), exports.end(), is_good);
+  const bool whole = audit.files.problems.empty() &&
+                     std::all_of(exports.begin(), exports.end(),
+                                 [](const AuditedExport& each) { return each.is_whole(); });
   return whole ? exit_code(audit.grade()) : kExitCorrupt;
 }
 
@@ -131,17 +101,19 @@ int audit(AuditArguments& arguments) {
   if (Status taken = take_folder(options.folder); !taken) return report(taken.error());
   Auditor auditor(*campaign, *prepared, *setup, options);
   if (Status looked = auditor.look(); !looked) return report(looked.error());
-  const auto exports = audit_exports(*campaign, *prepared);
-  if (!exports) return report(exports.error());
+  const auto dataset = campaign_dataset(*campaign, *prepared);
+  if (!dataset) return report(dataset.error());
+  const std::vector<AuditedExport> exports =
+      check_exports(dataset->dataset, export_formats(), campaign->files.exports(), core_count());
   if (Status rendered = render(auditor, arguments.run.quiet); !rendered) {
     return report(rendered.error());
   }
   const Audit& result = auditor.result();
-  const std::string json = readable_json(to_json(result, *exports));
+  const std::string json = readable_json(to_json(result, exports));
   const auto folder = options.folder;
   for (const auto& [name, text] :
        {std::pair("report.md",
-                  audit_markdown(campaign->files.root().filename().string(), result, *exports)),
+                  audit_markdown(campaign->files.root().filename().string(), result, exports)),
         std::pair("report.json", json)}) {
     if (Status written = write_file_atomically(folder / name, text); !written) {
       return report(written.error());
@@ -150,9 +122,9 @@ int audit(AuditArguments& arguments) {
   if (arguments.json) {
     fmt::print("{}", json);
   } else {
-    fmt::print("{}{} has the report\n", audit_summary(result, *exports), folder.string());
+    fmt::print("{}{} has the report\n", audit_summary(result, exports), folder.string());
   }
-  return exit_code_of(result, *exports);
+  return exit_code_of(result, exports);
 }
 
 }  // namespace

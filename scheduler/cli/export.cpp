@@ -5,17 +5,17 @@
 #include <cstdlib>
 #include <memory>
 #include <set>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 
+#include "base/cores.h"
 #include "base/nearest_name.h"
 #include "campaign/campaign.h"
 #include "cli/allow_option.h"
-#include "cli/campaign_dataset.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
+#include "export/campaign_dataset.h"
 #include "export/export_index.h"
 #include "export/export_run.h"
 #include "export/verify.h"
@@ -87,7 +87,7 @@ Result<ExportOptions> options_of(const ExportArguments& arguments) {
   options.polygon_vertices =
       arguments.polygon_vertices == "centres" ? PolygonVertices::kCentres : PolygonVertices::kEdges;
   if (options.workers == 0) {
-    options.workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    options.workers = core_count();
   }
   if (Status possible = check_export_options(options); !possible) return forward_error(possible);
   return options;

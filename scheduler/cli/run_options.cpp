@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 
+#include "base/cores.h"
 #include "campaign/render_run.h"
 #include "cli/home.h"
 #include "plan/worker_plan.h"
@@ -78,13 +78,11 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
 
 namespace {
 
-int cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
-
 void make_choices(PoolOptions& pool, const RenderConfig& render, std::int64_t frames) {
   const WorkerPlan plan =
-      choose_workers(render.width, render.height, render.samples, frames, cores());
+      choose_workers(render.width, render.height, render.samples, frames, core_count());
   if (pool.worker.threads == 0) {
-    pool.worker.threads = pool.workers > 0 ? std::max(1, cores() / pool.workers) : plan.threads;
+    pool.worker.threads = pool.workers > 0 ? std::max(1, core_count() / pool.workers) : plan.threads;
   }
   if (pool.workers == 0) pool.workers = plan.workers;
   constexpr double kShare = 0.8;
@@ -139,9 +137,9 @@ Result<RunSetup> set_up_run(RunOptions options, const CampaignConfig& config, st
     return set_up_rendering(std::move(options), config, frames);
   }
   PoolOptions& pool = options.pool;
-  const std::int64_t frames_at_once = std::clamp<std::int64_t>(frames, 1, cores());
+  const std::int64_t frames_at_once = std::clamp<std::int64_t>(frames, 1, core_count());
   if (pool.workers == 0) pool.workers = static_cast<int>(frames_at_once);
-  if (pool.worker.threads == 0) pool.worker.threads = std::max(1, cores() / pool.workers);
+  if (pool.worker.threads == 0) pool.worker.threads = std::max(1, core_count() / pool.workers);
   RunSetup setup;
   setup.options = std::move(options);
   return setup;

@@ -11,7 +11,7 @@ PlacedFile image_at(const std::filesystem::path& path, const ExportFrame& frame)
   return {path, frame.frame.folder / frame_files::kImage, frame.image_sha256};
 }
 
-Result<ExportInstance> whole_instance(const DatasetFrame& frame, const LoadedFrame& loaded,
+Result<ExportInstance> whole_instance(const CommittedFrame& frame, const LoadedFrame& loaded,
                                       const InstanceLabel& label) {
   if (!loaded.labels.twin_exact || !label.amodal) {
     return fail(ErrorKind::kInput,
@@ -44,8 +44,8 @@ Result<ExportInstance> whole_instance(const DatasetFrame& frame, const LoadedFra
   return ExportInstance{&label, mask, area, std::move(image)};
 }
 
-Result<std::unique_ptr<ExportFrame>> select_instances(const DatasetFrame& frame, LoadedFrame loaded,
-                                                      std::string split,
+Result<std::unique_ptr<ExportFrame>> select_instances(const CommittedFrame& frame,
+                                                      LoadedFrame loaded, std::string split,
                                                       const ExportOptions& options) {
   auto selected = std::make_unique<ExportFrame>();
   selected->frame = frame;

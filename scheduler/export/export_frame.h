@@ -25,7 +25,7 @@ struct ExportInstance {
 };
 
 struct ExportFrame {
-  DatasetFrame frame;
+  CommittedFrame frame;
   LoadedFrame loaded;
   std::string split;  ///< its name
   std::string stem;   ///< "000042"
@@ -43,13 +43,13 @@ PlacedFile image_at(const std::filesystem::path& path, const ExportFrame& frame)
 
 /// An instance by its whole silhouette inside the image. A kInput error names the frame if it has
 /// none that is exact.
-Result<ExportInstance> whole_instance(const DatasetFrame& frame, const LoadedFrame& loaded,
+Result<ExportInstance> whole_instance(const CommittedFrame& frame, const LoadedFrame& loaded,
                                       const InstanceLabel& label);
 
 /// The instances that the options let through, in the order of labels.json. kInput errors name a
 /// frame that has no exact silhouettes though they are asked for.
-Result<std::unique_ptr<ExportFrame>> select_instances(const DatasetFrame& frame, LoadedFrame loaded,
-                                                      std::string split,
+Result<std::unique_ptr<ExportFrame>> select_instances(const CommittedFrame& frame,
+                                                      LoadedFrame loaded, std::string split,
                                                       const ExportOptions& options);
 
 }  // namespace seedframe

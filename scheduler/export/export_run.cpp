@@ -5,11 +5,7 @@
 #include <deque>
 #include <mutex>
 
-#include "base/files.h"
-#include "base/sha256.h"
-#include "export/document.h"
-#include "export/earlier_export.h"
-#include "export/export_index.h"
+#include "export/format_export.h"
 #include "export/frame_pipeline.h"
 #include "export/split.h"
 #include "frames/campaign_files.h"
@@ -20,166 +16,9 @@ namespace {
 
 constexpr int kMostErrorsTold = 10;
 
-/// One format's export while it is written. `append` is called for each frame in order; the rest
-/// may be used from several threads.
-class FormatExport {
- public:
-  FormatExport(const FormatEntry& entry, std::unique_ptr<ExportFormat> format, ExportFolder folder,
-               const ExportOptions& options)
-      : entry_(&entry),
-        format_(std::move(format)),
-        kinds_(format_->documents()),
-        folder_(std::move(folder)),
-        options_(&options) {
-    summary_.format = entry.name;
-    summary_.folder = folder_.destination();
-    for (const SplitShare& split : options.splits) {
-      summary_.splits.push_back({.split = split.name});
-    }
-  }
-
-  Status begin(const Dataset& dataset) {
-    marker_ = {entry_->name, dataset.name, dataset_hash(dataset), 0, *options_};
-    for (const fs::path& folder : format_->folders()) {
-      if (Status made = folder_.make_folder(folder); !made) return made;
-    }
-    for (const DocumentKind& kind : kinds_) {
-      if (kind.scope != DocumentKind::Scope::kSplit) continue;
-      for (const SplitShare& split : options_->splits) {
-        if (Status begun = document(kind, split.name, 0, 0); !begun) return begun;
-      }
-    }
-    index_.open(folder_.partial() / kIndexFile, std::ios::binary);
-    if (format_->reusable()) {
-      earlier_ = EarlierExport::open(folder_.destination(), marker_, kinds_);
-    }
-    return {};
-  }
-
-  const ExportFormat& format() const { return *format_; }
-
-  std::optional<EarlierExport::Part> earlier_part(std::int64_t frame) {
-    return earlier_ ? earlier_->take(frame) : std::nullopt;
-  }
-
-  /// Takes over what was written of the frame; false if it is not what it was.
-  bool reuse(const EarlierExport::Part& part, const FrameFiles& files, const fs::path& image,
-             FrameRecord& record) {
-    if (!part.whole || part.entry.key != files.key()) return false;
-    const std::string image_sha256 = files.sha256(frame_files::kImage);
-    for (const IndexEntry::File& file : part.entry.files) {
-      if (options_->link_images && file.hash == content_hash_of_sha256(image_sha256)) {
-        record.placed.push_back({file.path, image, image_sha256});
-        continue;
-      }
-      const fs::path source = earlier_->folder() / file.path;
-      const auto sha256 = sha256_of_file(source);
-      if (!sha256 || content_hash_of_sha256(*sha256) != file.hash) return false;
-      record.placed.push_back({file.path, source, *sha256});
-    }
-    record.chunks = part.chunks;
-    record.counts = part.entry.counts;
-    return true;
-  }
-
-  /// Writes the files of a frame, and leaves their names and hashes in `entry`.
-  Status write_files(const FrameRecord& record, bool reused, IndexEntry& entry) {
-    for (const FrameFile& file : record.files) {
-      if (Status written = folder_.write(file.path, file.bytes); !written) return written;
-      entry.files.push_back({file.path.string(), content_hash(file.bytes)});
-    }
-    for (const PlacedFile& file : record.placed) {
-      // What is taken over from an export that is about to be removed can stay where it is on the
-      // disk, unless it is also an image of the campaign.
-      std::error_code error;
-      const bool link = options_->link_images ||
-                        (reused && fs::hard_link_count(file.source, error) == 1 && !error);
-      if (Status placed = folder_.place(file.source, file.path, link); !placed) return placed;
-      entry.files.push_back({file.path.string(), content_hash_of_sha256(file.sha256)});
-    }
-    return {};
-  }
-
-  Status append(const DatasetFrame& frame, std::int64_t ordinal, const FrameRecord& record,
-                bool reused, IndexEntry entry) {
-    SplitSummary& split = summary_.splits[static_cast<std::size_t>(entry.split)];
-    const std::int64_t shard = ordinal / options_->shard_size;
-    for (const Chunk& chunk : record.chunks) {
-      const DocumentKind& kind = kinds_[static_cast<std::size_t>(chunk.document)];
-      if (Status open = document(kind, split.split, frame.scene, shard); !open) return open;
-      const std::string path = kind.path_of(split.split, frame.scene, shard);
-      documents_.at(path).writer.add(chunk.section, chunk.text);
-      entry.pieces.push_back({path, chunk.section, chunk.text.size(), content_hash(chunk.text)});
-    }
-    entry.counts = record.counts;
-    index_ << index_line(entry);
-    ++summary_.frames;
-    summary_.reused += reused;
-    ++split.images;
-    split.background_images += at(record.counts, Count::kAnnotations) == 0;
-    for (std::size_t i = 0; i < split.counts.size(); ++i) split.counts[i] += record.counts[i];
-    return {};
-  }
-
-  /// Everything but commit.
-  Status finish() {
-    for (auto& [path, document] : documents_) {
-      if (Status closed = document.writer.finish(); !closed) return closed;
-    }
-    index_.close();
-    if (!index_) {
-      return fail(ErrorKind::kEnvironment, "cannot write {}: is the disk full?",
-                  (folder_.partial() / kIndexFile).string());
-    }
-    marker_.frames = summary_.frames;
-    return format_->finish(folder_, summary_);
-  }
-
-  Status commit() { return folder_.commit(marker_text(marker_)); }
-  ExportSummary& summary() { return summary_; }
-
- private:
-  struct OpenDocument {
-    const DocumentKind* kind = nullptr;
-    std::string split;
-    DocumentWriter writer;
-  };
-
-  /// Opens a document unless it is open, and closes those of the split's earlier scene or shard.
-  Status document(const DocumentKind& kind, const std::string& split, int scene,
-                  std::int64_t shard) {
-    const std::string path = kind.path_of(split, scene, shard);
-    if (documents_.count(path) > 0) return {};
-    for (auto each = documents_.begin(); each != documents_.end();) {
-      const bool over = each->second.kind == &kind && each->second.split == split;
-      if (!over) {
-        ++each;
-        continue;
-      }
-      if (Status closed = each->second.writer.finish(); !closed) return closed;
-      each = documents_.erase(each);
-    }
-    const fs::path relative = path;
-    if (Status made = folder_.make_folder(relative.parent_path()); !made) return made;
-    documents_.emplace(path, OpenDocument{&kind, split, {folder_.partial() / relative, kind}});
-    return {};
-  }
-
-  const FormatEntry* entry_;
-  std::unique_ptr<ExportFormat> format_;
-  std::vector<DocumentKind> kinds_;
-  ExportFolder folder_;
-  const ExportOptions* options_;
-  ExportMarker marker_;
-  std::optional<EarlierExport> earlier_;
-  std::map<std::string, OpenDocument> documents_;
-  std::ofstream index_;
-  ExportSummary summary_;
-};
-
 /// A frame on its way.
 struct FrameTask {
-  DatasetFrame frame;
+  CommittedFrame frame;
   int split = 0;
   std::int64_t ordinal = 0;                                 ///< among the frames of its split
   std::vector<std::optional<EarlierExport::Part>> earlier;  ///< by format
@@ -233,7 +72,7 @@ class ExportRun {
     task->ordinal = ordinals_[static_cast<std::size_t>(task->split)]++;
     task->earlier.reserve(exports_.size());
     for (FormatExport& each : exports_) {
-      task->earlier.push_back(each.earlier_part(task->frame.index));
+      task->earlier.push_back(each.take_earlier(task->frame.index));
     }
     return task;
   }
@@ -248,7 +87,7 @@ class ExportRun {
   }
 
   Status make_records(FrameTask& task) {
-    const auto files = FrameFiles::open(dataset_, task.frame, parts_);
+    const auto files = FrameReader::open(task.frame, parts_);
     if (!files) return forward_error(files);
     if (broken_) return {};  // only to find out what else is wrong
     const std::size_t formats = exports_.size();
@@ -258,9 +97,7 @@ class ExportRun {
     std::unique_ptr<ExportFrame> selected;
     for (std::size_t i = 0; i < formats; ++i) {
       const auto& earlier = task.earlier[i];
-      task.reused[i] =
-          earlier && exports_[i].reuse(*earlier, *files, task.frame.folder / frame_files::kImage,
-                                       task.records[i]);
+      task.reused[i] = earlier && exports_[i].reuse(*earlier, *files, task.records[i]);
       if (!task.reused[i]) {
         if (!selected) {
           auto loaded = load(*files, task);
@@ -281,8 +118,8 @@ class ExportRun {
     return {};
   }
 
-  Result<std::unique_ptr<ExportFrame>> load(const FrameFiles& files, const FrameTask& task) const {
-    auto loaded = files.load();
+  Result<std::unique_ptr<ExportFrame>> load(const FrameReader& files, const FrameTask& task) const {
+    auto loaded = files.load(dataset_.categories);
     if (!loaded) return forward_error(loaded);
     auto selected =
         select_instances(task.frame, std::move(*loaded),

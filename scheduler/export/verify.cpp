@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMostTold = 20;
 
 struct VerifyTask {
-  DatasetFrame frame;
+  CommittedFrame frame;
   std::optional<EarlierExport::Part> part;
   Status status;
   std::int64_t annotations = 0;
@@ -68,9 +68,9 @@ class Verification {
   }
 
   Status compare(VerifyTask& task) const {
-    const auto files = FrameFiles::open(dataset_, task.frame, format_.needs());
+    const auto files = FrameReader::open(task.frame, format_.needs());
     if (!files) return forward_error(files);
-    auto loaded = files->load();
+    auto loaded = files->load(dataset_.categories);
     if (!loaded) return forward_error(loaded);
     const ExportOptions& options = marker_.options;
     const int split = split_of_scene(task.frame.scene, dataset_.seed, options.splits);

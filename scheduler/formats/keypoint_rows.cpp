@@ -4,7 +4,7 @@
 
 namespace seedframe {
 
-Result<std::vector<KeypointRow>> keypoint_rows(const DatasetFrame& frame,
+Result<std::vector<KeypointRow>> keypoint_rows(const CommittedFrame& frame,
                                                const InstanceLabel& label,
                                                const ClassKeypoints& keypoints) {
   std::vector<KeypointRow> rows(keypoints.names.size());

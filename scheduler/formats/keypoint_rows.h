@@ -17,7 +17,7 @@ struct KeypointRow {
 
 /// One for each name of the class; outside for a point that the instance's asset does not have. A
 /// kCorrupt error for a point that the class does not have.
-Result<std::vector<KeypointRow>> keypoint_rows(const DatasetFrame& frame,
+Result<std::vector<KeypointRow>> keypoint_rows(const CommittedFrame& frame,
                                                const InstanceLabel& label,
                                                const ClassKeypoints& keypoints);
 

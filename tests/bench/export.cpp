@@ -185,7 +185,7 @@ class RepeatedFrames {
     const CampaignFiles files(folder);
     for (int i = 0; i < 100; ++i) {
       const IdImage ids = ten_instances(640, 480, static_cast<std::uint64_t>(i));
-      const DatasetFrame frame{i, i, files.frame(i), fmt::format("{:064}", i)};
+      const CommittedFrame frame{i, i, files.frame(i), fmt::format("{:064}", i)};
       if (!make_folders(frame.folder)) std::exit(1);
       Manifest manifest;
       manifest.frame_id = frame.frame_id;
@@ -202,9 +202,9 @@ class RepeatedFrames {
   }
 
   FrameCursor cursor(std::int64_t count) const {
-    return [this, count, next = std::int64_t{0}]() mutable -> Result<std::optional<DatasetFrame>> {
+    return [this, count, next = std::int64_t{0}]() mutable -> Result<std::optional<CommittedFrame>> {
       if (next == count) return std::nullopt;
-      DatasetFrame frame = frames_[static_cast<std::size_t>(next) % frames_.size()];
+      CommittedFrame frame = frames_[static_cast<std::size_t>(next) % frames_.size()];
       frame.index = next;
       frame.scene = static_cast<int>(next / 10);
       ++next;
@@ -213,7 +213,7 @@ class RepeatedFrames {
   }
 
  private:
-  std::vector<DatasetFrame> frames_;
+  std::vector<CommittedFrame> frames_;
 };
 
 int measure_stream(const fs::path& folder, std::int64_t count,

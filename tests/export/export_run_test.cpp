@@ -242,7 +242,7 @@ TEST_P(EveryFormat, LeavesTheOldExportWhenItFailsAtAnyFrame) {
   ExportOptions other = options();
   other.min_pixels = 400;  // another content, had the failed export replaced anything
   other.workers = 3;
-  for (const DatasetFrame& frame : campaign_.frames()) {
+  for (const CommittedFrame& frame : campaign_.frames()) {
     const fs::path labels = frame.folder / frame_files::kLabels;
     const std::string bytes = *read_file(labels);
     fs::remove(labels);
@@ -263,7 +263,7 @@ TEST_P(EveryFormat, LeavesTheOldExportWhenItFailsAtAnyFrame) {
 
 TEST_P(EveryFormat, NamesUpToTenBadFrames) {
   campaign_.add_frame(12, 6, SyntheticDataset::discs(12));
-  for (const DatasetFrame& frame : campaign_.frames()) {
+  for (const CommittedFrame& frame : campaign_.frames()) {
     ASSERT_TRUE(write_quickly(frame.folder / frame_files::kInstances, "no image"));
   }
   const auto failed = run(options());

@@ -82,7 +82,7 @@ class SyntheticDataset {
     dataset_.keypoints.resize(4);
     dataset_.keypoints[0] = {{"head", "tip"}, {{0, 1}}, {}};
     dataset_.frames = [this] {
-      return [this, next = std::size_t{0}]() mutable -> Result<std::optional<DatasetFrame>> {
+      return [this, next = std::size_t{0}]() mutable -> Result<std::optional<CommittedFrame>> {
         if (next == frames_.size()) return std::nullopt;
         return frames_[next++];
       };
@@ -93,8 +93,8 @@ class SyntheticDataset {
 
   const Dataset& dataset() const { return dataset_; }
   Dataset& dataset() { return dataset_; }
-  const std::vector<DatasetFrame>& frames() const { return frames_; }
-  std::vector<DatasetFrame>& frames() { return frames_; }
+  const std::vector<CommittedFrame>& frames() const { return frames_; }
+  std::vector<CommittedFrame>& frames() { return frames_; }
   const Truth& truth(std::int64_t index) const { return truths_.at(index); }
   fs::path frame_folder(std::int64_t index) const { return CampaignFiles(folder_).frame(index); }
 
@@ -120,7 +120,7 @@ class SyntheticDataset {
   }
 
   /// As if the files that are there had been written so.
-  static void write_manifest(const DatasetFrame& frame) {
+  static void write_manifest(const CommittedFrame& frame) {
     Manifest manifest;
     manifest.frame_id = frame.frame_id;
     for (const char* name : {frame_files::kImage, frame_files::kInstances, frame_files::kLabels}) {
@@ -204,7 +204,7 @@ class SyntheticDataset {
 
   fs::path folder_;
   Dataset dataset_;
-  std::vector<DatasetFrame> frames_;
+  std::vector<CommittedFrame> frames_;
   std::map<std::int64_t, Truth> truths_;
 };
 

@@ -56,7 +56,7 @@ TEST_P(ExportCoco, HoldsExactlyTheMasksThatWereRendered) {
     annotations[annotation.at("image_id").get<std::int64_t>()].push_back(annotation);
   }
   std::size_t compared = 0;
-  for (const DatasetFrame& frame : campaign_.frames()) {
+  for (const CommittedFrame& frame : campaign_.frames()) {
     SCOPED_TRACE(frame.index);
     const Truth& truth = campaign_.truth(frame.index);
     const std::vector<InstanceLabel> expected = exported_instances(truth);
@@ -91,7 +91,7 @@ TEST_P(ExportCoco, ListsEveryImageAndCategory) {
   ASSERT_EQ(coco.at("images").size(), 10U);
   for (std::size_t i = 0; i < 10; ++i) {
     const Json& image = coco.at("images")[i];
-    const DatasetFrame& frame = campaign_.frames()[i];
+    const CommittedFrame& frame = campaign_.frames()[i];
     EXPECT_EQ(image.at("id"), frame.index + 1);
     EXPECT_EQ(image.at("width"), 160);
     EXPECT_EQ(image.at("height"), 120);

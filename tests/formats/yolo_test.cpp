@@ -103,7 +103,7 @@ TEST_F(ExportYolo, DetectionBoxesAreThoseOfThePixels) {
   const auto summary = export_one(campaign_.dataset(), "yolo-detect", options());
   ASSERT_TRUE(summary) << summary.error().message;
   int compared = 0;
-  for (const DatasetFrame& frame : campaign_.frames()) {
+  for (const CommittedFrame& frame : campaign_.frames()) {
     SCOPED_TRACE(frame.index);
     const auto expected = exported_instances(campaign_.truth(frame.index));
     const auto found = rows(*summary, frame.index);
@@ -128,7 +128,7 @@ void expect_segments(const SyntheticDataset& campaign, const ExportOptions& opti
   int one_part = 0;
   int several_parts = 0;
   int with_holes = 0;
-  for (const DatasetFrame& frame : campaign.frames()) {
+  for (const CommittedFrame& frame : campaign.frames()) {
     SCOPED_TRACE(frame.index);
     const Truth& truth = campaign.truth(frame.index);
     const auto expected = exported_instances(truth);

@@ -1,4 +1,4 @@
-#include "export/dataset.h"
+#include "frames/frame_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class LoadFrame : public ::testing::Test {
+class FrameReaderTest : public ::testing::Test {
  protected:
-  LoadFrame() : campaign_(scratch_.path()) {
+  FrameReaderTest() : campaign_(scratch_.path()) {
     IdImage ids(12, 10);
     ids.at(2, 3) = ids.at(2, 4) = 3;
     ids.at(7, 7) = 4;
@@ -20,10 +20,10 @@ class LoadFrame : public ::testing::Test {
   }
 
   Result<LoadedFrame> load() const {
-    const DatasetFrame& frame = campaign_.frames().at(0);
-    const auto files = FrameFiles::open(campaign_.dataset(), frame, {.image_file = true});
-    if (!files) return forward_error(files);
-    return files->load();
+    const CommittedFrame& frame = campaign_.frames().at(0);
+    const auto reader = FrameReader::open(frame, {.image_file = true});
+    if (!reader) return forward_error(reader);
+    return reader->load(campaign_.dataset().categories);
   }
   fs::path file(const char* name) const { return campaign_.frame_folder(17) / name; }
 
@@ -48,29 +48,29 @@ class LoadFrame : public ::testing::Test {
   SyntheticDataset campaign_;
 };
 
-TEST_F(LoadFrame, ReturnsTheLabelsAndTheIds) {
+TEST_F(FrameReaderTest, ReturnsTheLabelsAndTheIds) {
   const auto loaded = load();
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->instance_ids.values, campaign_.truth(17).ids.values);
   EXPECT_EQ(to_json(loaded->labels), to_json(campaign_.truth(17).labels));
 }
 
-TEST_F(LoadFrame, NoticesAnotherArea) {
+TEST_F(FrameReaderTest, NoticesAnotherArea) {
   edit_labels([](Json& json) { json["instances"][0]["area_px"] = 1; });
   expect_corrupt({"instance 3", "'bolt/0'", "1 pixels", "instances.png has 2"});
 }
 
-TEST_F(LoadFrame, NoticesAnotherBox) {
+TEST_F(FrameReaderTest, NoticesAnotherBox) {
   edit_labels([](Json& json) { json["instances"][0]["box"] = {3, 2, 2, 2}; });
   expect_corrupt({"instance 3", "[3, 2, 2, 2]", "[3, 2, 2, 1]"});
 }
 
-TEST_F(LoadFrame, NoticesAnInstanceThatTheLabelsDoNotKnow) {
+TEST_F(FrameReaderTest, NoticesAnInstanceThatTheLabelsDoNotKnow) {
   edit_labels([](Json& json) { json["instances"].erase(0); });
   expect_corrupt({"instance 3", "2 pixels"});
 }
 
-TEST_F(LoadFrame, NoticesAnInstanceThatTheImageDoesNotHave) {
+TEST_F(FrameReaderTest, NoticesAnInstanceThatTheImageDoesNotHave) {
   IdImage ids(12, 10);
   ids.at(2, 3) = ids.at(2, 4) = 3;
   ASSERT_TRUE(write_file(file(frame_files::kInstances), encode_png(ids)));
@@ -78,27 +78,27 @@ TEST_F(LoadFrame, NoticesAnInstanceThatTheImageDoesNotHave) {
   expect_corrupt({"instance 4", "'rock/0'", "instances.png has 0"});
 }
 
-TEST_F(LoadFrame, NoticesAnotherSize) {
+TEST_F(FrameReaderTest, NoticesAnotherSize) {
   edit_labels([](Json& json) { json["width"] = 13; });
   expect_corrupt({"13x10", "12x10"});
 }
 
-TEST_F(LoadFrame, NoticesACategoryThatTheLabelsDoNotHave) {
+TEST_F(FrameReaderTest, NoticesACategoryThatTheLabelsDoNotHave) {
   edit_labels([](Json& json) { json["instances"][0]["category"] = 5; });
   expect_corrupt({"instances[0]", "category 5 of 4"});
 }
 
-TEST_F(LoadFrame, NamesAClassThatTheConfigNoLongerHas) {
+TEST_F(FrameReaderTest, NamesAClassThatTheConfigNoLongerHas) {
   campaign_.dataset().categories = {"bolt", "gear", "say \"über\""};
   expect_corrupt({"class 'no'", "no longer has", "submit"});
 }
 
-TEST_F(LoadFrame, NoticesClassesInAnotherOrder) {
+TEST_F(FrameReaderTest, NoticesClassesInAnotherOrder) {
   std::swap(campaign_.dataset().categories[0], campaign_.dataset().categories[1]);
   expect_corrupt({"another order"});
 }
 
-TEST_F(LoadFrame, NoticesAMaskThatWasChangedAfterwards) {
+TEST_F(FrameReaderTest, NoticesAMaskThatWasChangedAfterwards) {
   IdImage ids(12, 10);
   ids.at(2, 3) = ids.at(2, 4) = 3;
   ids.at(7, 8) = 4;
@@ -106,17 +106,15 @@ TEST_F(LoadFrame, NoticesAMaskThatWasChangedAfterwards) {
   expect_corrupt({"instances.png has changed"});
 }
 
-TEST_F(LoadFrame, NoticesAnImageThatWasChangedAfterwards) {
+TEST_F(FrameReaderTest, NoticesAnImageThatWasChangedAfterwards) {
   std::string bytes = *read_file(file(frame_files::kImage));
   bytes[bytes.size() / 2] ^= 1;
   ASSERT_TRUE(write_file(file(frame_files::kImage), bytes));
   expect_corrupt({"image.png has changed"});
 }
 
-TEST_F(LoadFrame, TheKeyChangesWithAnyFileAndWithTheScene) {
-  const auto key = [this] {
-    return FrameFiles::open(campaign_.dataset(), campaign_.frames().at(0), {})->key();
-  };
+TEST_F(FrameReaderTest, TheKeyChangesWithAnyFileAndWithTheScene) {
+  const auto key = [this] { return FrameReader::open(campaign_.frames().at(0), {})->key(); };
   const std::string before = key();
   EXPECT_EQ(key(), before);
   ++campaign_.frames().at(0).scene;
@@ -127,7 +125,7 @@ TEST_F(LoadFrame, TheKeyChangesWithAnyFileAndWithTheScene) {
   EXPECT_NE(key(), before);
 }
 
-TEST_F(LoadFrame, NoticesLabelsThatAreCut) {
+TEST_F(FrameReaderTest, NoticesLabelsThatAreCut) {
   const std::string text = *read_file(file(frame_files::kLabels));
   for (const std::size_t length : {std::size_t{0}, std::size_t{1}, text.size() / 2}) {
     ASSERT_TRUE(write_file(file(frame_files::kLabels), text.substr(0, length)));
@@ -136,7 +134,7 @@ TEST_F(LoadFrame, NoticesLabelsThatAreCut) {
   }
 }
 
-TEST_F(LoadFrame, NoticesMissingFiles) {
+TEST_F(FrameReaderTest, NoticesMissingFiles) {
   const std::string labels = *read_file(file(frame_files::kLabels));
   fs::remove(file(frame_files::kLabels));
   auto loaded = load();

@@ -1,4 +1,4 @@
-#include "cli/campaign_dataset.h"
+#include "export/campaign_dataset.h"
 
 #include <deque>
 
@@ -10,7 +10,7 @@ class DoneFrames {
  public:
   explicit DoneFrames(const Campaign& campaign) : campaign_(&campaign) {}
 
-  Result<std::optional<DatasetFrame>> next() {
+  Result<std::optional<CommittedFrame>> next() {
     constexpr int kRows = 1000;
     while (true) {
       if (rows_.empty()) {
@@ -23,8 +23,8 @@ class DoneFrames {
       const FrameRow row = std::move(rows_.front());
       rows_.pop_front();
       if (row.state != FrameState::kDone) continue;
-      return DatasetFrame{row.frame, static_cast<int>(row.scene), campaign_->files.frame(row.frame),
-                          row.frame_id};
+      return CommittedFrame{row.frame, static_cast<int>(row.scene),
+                            campaign_->files.frame(row.frame), row.frame_id};
     }
   }
 

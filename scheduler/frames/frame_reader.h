@@ -1,0 +1,66 @@
+// The files of a committed frame, read and compared with their manifest.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "annotate/labels.h"
+#include "base/error.h"
+#include "frames/manifest.h"
+#include "image/image.h"
+
+namespace seedframe {
+
+struct CommittedFrame {
+  std::int64_t index = 0;  ///< over the whole campaign
+  int scene = 0;
+  std::filesystem::path folder;  ///< holds what campaign_files.h names
+  std::string frame_id;
+};
+
+/// Which files of a frame are needed beside its labels.
+struct FrameParts {
+  bool image_file = false;    ///< image.png, as it is
+  bool image_pixels = false;  ///< the same, decoded
+  bool depth = false;
+};
+
+struct LoadedFrame {
+  FrameLabels labels;
+  Image<std::uint16_t> instance_ids;
+  std::optional<Image<std::uint8_t>> image;  ///< RGB
+  std::optional<Image<float>> depth;         ///< planar, metres
+};
+
+/// The files of a frame, found to be those of its manifest.
+class FrameReader {
+ public:
+  /// kCorrupt errors name the frame and the file that is missing or not as it was written.
+  static Result<FrameReader> open(const CommittedFrame& frame, const FrameParts& parts);
+
+  /// Changes whenever any file of the frame does, its id or its scene.
+  const std::string& key() const { return key_; }
+  std::filesystem::path path(const char* name) const { return frame_.folder / name; }
+  /// As the manifest has it; empty for a file that the frame does not have.
+  std::string sha256(const char* name) const;
+
+  /// Decodes, and compares labels and pixels. kCorrupt errors name the frame, and the instance:
+  /// another area or box than the pixels have, an id that only one of the files knows, other
+  /// categories than those that are expected.
+  Result<LoadedFrame> load(const std::vector<std::string>& categories) const;
+
+ private:
+  FrameReader() = default;
+
+  CommittedFrame frame_;
+  FrameParts parts_;
+  Manifest manifest_;
+  std::string key_;
+  std::string labels_;
+  std::string instances_;
+};
+
+}  // namespace seedframe
