@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "../annotate/mask_cases.h"
 #include "annotate/rle.h"
@@ -21,6 +20,7 @@
 #include "frames/campaign_files.h"
 #include "frames/manifest.h"
 #include "image/png_file.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 
@@ -33,25 +33,6 @@ inline bool write_quickly(const fs::path& path, const std::string& bytes) {
   stream.close();
   return !stream.fail();
 }
-
-/// An empty folder for one test, removed at its end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (fs::temp_directory_path() / "seedframe-export-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 inline InstanceSpec labelled(std::string name, int id, int category) {
   InstanceSpec spec;
