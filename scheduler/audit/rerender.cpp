@@ -62,7 +62,8 @@ RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
   for (const Condition condition : varied) {
     switch (condition) {
       case Condition::kThreads:
-        options.pool.worker.threads = options.pool.worker.threads == 1 ? std::max(2, core_count()) : 1;
+        options.pool.worker.threads =
+            options.pool.worker.threads == 1 ? std::max(2, core_count()) : 1;
         break;
       case Condition::kWorkers:
         options.pool.workers = options.pool.workers == kWorkers ? kWorkers - 1 : kWorkers;

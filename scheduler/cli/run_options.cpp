@@ -82,7 +82,8 @@ void make_choices(PoolOptions& pool, const RenderConfig& render, std::int64_t fr
   const WorkerPlan plan =
       choose_workers(render.width, render.height, render.samples, frames, core_count());
   if (pool.worker.threads == 0) {
-    pool.worker.threads = pool.workers > 0 ? std::max(1, core_count() / pool.workers) : plan.threads;
+    pool.worker.threads =
+        pool.workers > 0 ? std::max(1, core_count() / pool.workers) : plan.threads;
   }
   if (pool.workers == 0) pool.workers = plan.workers;
   constexpr double kShare = 0.8;

@@ -202,14 +202,15 @@ class RepeatedFrames {
   }
 
   FrameCursor cursor(std::int64_t count) const {
-    return [this, count, next = std::int64_t{0}]() mutable -> Result<std::optional<CommittedFrame>> {
-      if (next == count) return std::nullopt;
-      CommittedFrame frame = frames_[static_cast<std::size_t>(next) % frames_.size()];
-      frame.index = next;
-      frame.scene = static_cast<int>(next / 10);
-      ++next;
-      return frame;
-    };
+    return
+        [this, count, next = std::int64_t{0}]() mutable -> Result<std::optional<CommittedFrame>> {
+          if (next == count) return std::nullopt;
+          CommittedFrame frame = frames_[static_cast<std::size_t>(next) % frames_.size()];
+          frame.index = next;
+          frame.scene = static_cast<int>(next / 10);
+          ++next;
+          return frame;
+        };
   }
 
  private:
