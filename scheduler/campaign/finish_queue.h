@@ -1,16 +1,16 @@
 // Runs post-processing beside the rendering.
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
-#include <mutex>
 #include <thread>
 #include <vector>
 
+#include <tbb/concurrent_queue.h>
+
 namespace seedframe {
 
-/// A few threads that take jobs in order. The destructor waits for all jobs.
+/// A few threads that take jobs in order. The destructor waits for all jobs. The threads are not
+/// TBB's: jobs wait for the disk, and as many as asked for run at once on any machine.
 class FinishQueue {
  public:
   explicit FinishQueue(int threads);
@@ -23,11 +23,8 @@ class FinishQueue {
  private:
   void work();
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::function<void()>> jobs_;
-  bool closed_ = false;
-  std::vector<std::thread> threads_;
+  tbb::concurrent_bounded_queue<std::function<void()>> jobs_;  ///< an empty one ends a thread
+  std::vector<std::jthread> threads_;                          ///< joined before jobs_ goes
 };
 
 }  // namespace seedframe
