@@ -2,8 +2,12 @@
 // caller, converts numbers that do not fit, and opens whatever files the images name.
 #include "mesh_files/gltf_file.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
+
+#include <openssl/evp.h>
 
 #include "base/allowed_folders.h"
 #include "base/files.h"
@@ -15,48 +19,33 @@ namespace {
 
 constexpr double kMostExact = 9007199254740992.0;  // 2^53
 
+// Without the '=' at its end too, as browsers take it; otherwise as strict as RFC 4648.
 std::optional<std::string> decode_base64(std::string_view text) {
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3);
-  std::uint32_t bits = 0;
-  int count = 0;
-  while (text.ends_with('=')) text.remove_suffix(1);
-  for (const char c : text) {
-    std::uint32_t value = 0;
-    if (c >= 'A' && c <= 'Z') {
-      value = static_cast<std::uint32_t>(c - 'A');
-    } else if (c >= 'a' && c <= 'z') {
-      value = static_cast<std::uint32_t>(c - 'a' + 26);
-    } else if (c >= '0' && c <= '9') {
-      value = static_cast<std::uint32_t>(c - '0' + 52);
-    } else if (c == '+' || c == '/') {
-      value = c == '+' ? 62 : 63;
-    } else {
-      return std::nullopt;
-    }
-    bits = (bits << 6 | value) & 0xffffff;
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes.push_back(static_cast<char>(bits >> count & 0xff));
+  constexpr std::size_t kPiece = std::size_t{1} << 30;  // OpenSSL counts in int
+  const std::size_t digits = text.find_last_not_of('=') + 1;
+  std::string padded(text.substr(0, digits));
+  if (padded.find('=') != std::string::npos) return std::nullopt;  // OpenSSL would take it
+  padded.resize((digits + 3) / 4 * 4, '=');
+  std::string bytes(padded.size() / 4 * 3, '\0');
+  for (std::size_t at = 0; at < padded.size(); at += kPiece) {
+    const std::size_t size = std::min(kPiece, padded.size() - at);
+    const int decoded = EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data()) + at / 4 * 3,
+                                        reinterpret_cast<const unsigned char*>(padded.data()) + at,
+                                        static_cast<int>(size));
+    if (decoded != static_cast<int>(size / 4 * 3)) return std::nullopt;  // spaces give fewer
   }
+  bytes.resize(digits * 3 / 4);
   return bytes;
-}
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
 }
 
 std::string percent_decoded(const std::string& uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool escape = uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 &&
-                        hex_digit(uri[i + 2]) >= 0;
-    text.push_back(escape ? static_cast<char>(16 * hex_digit(uri[i + 1]) + hex_digit(uri[i + 2]))
-                          : uri[i]);
+    unsigned char code = 0;
+    const char* digits = uri.data() + i + 1;
+    const bool escape = uri[i] == '%' && i + 2 < uri.size() &&
+                        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+    text.push_back(escape ? static_cast<char>(code) : uri[i]);
     if (escape) i += 2;
   }
   return text;
@@ -164,9 +153,10 @@ Status GltfFile::check_head() const {
   const Json required = json_->value("extensionsRequired", Json::array());
   for (const Json& extension : required) {
     const std::string needed = extension.is_string() ? extension.get<std::string>() : "";
-    // What materials and lights look like is no matter of a mesh.
+    // What materials, textures and lights look like does not matter to a mesh.
     const bool harmless = needed == "KHR_mesh_quantization" || needed == "KHR_lights_punctual" ||
-                          needed.starts_with("KHR_materials_");
+                          needed.starts_with("KHR_materials_") ||
+                          needed.starts_with("KHR_texture_") || needed.starts_with("EXT_texture_");
     if (!harmless) {
       return fail_at("extensionsRequired",
                      "'{}' cannot be read: export the file without compression and extensions",
