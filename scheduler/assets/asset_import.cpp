@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "base/portable_math.h"
 #include "base/sha256.h"
+#include "base/utf8.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -119,7 +120,7 @@ Result<ImportReport> import_asset(const AssetImport& request) {
   asset.category = request.category;
   asset.smooth_angle_deg = request.smooth_angle_deg;
   asset.slots = repaired->mesh.slot_names;
-  asset.source = request.file.filename().string();
+  asset.source = as_utf8(request.file.filename().string());
   asset.repairs = repaired->report;
   asset.measures = measure_mesh(levels->front().mesh);
   const auto crossings = count_self_intersections(repaired->mesh, what);

@@ -73,7 +73,10 @@ std::vector<RayInstance> slots_of(const Mesh& mesh, const Eigen::Affine3d& camer
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.triangle_slots[t] == slot) part.triangles.push_back(mesh.triangles[t]);
     }
-    instances.push_back({std::make_shared<const RayMesh>(part), camera_from_object, true});
+    // Embree takes no mesh without triangles: of a slot that has none, nothing is seen.
+    const bool seen = !part.triangles.empty();
+    instances.push_back(
+        {std::make_shared<const RayMesh>(seen ? part : mesh), camera_from_object, seen});
   }
   return instances;
 }

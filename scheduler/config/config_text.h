@@ -17,8 +17,6 @@ inline constexpr std::uintmax_t kLargestConfig = 16u << 20;
 /// Characters: yaml-cpp keeps each bracket of a line until it knows whether it begins a key.
 inline constexpr std::size_t kLongestLine = 1u << 20;
 
-bool is_utf8(std::string_view text);
-
 /// Errors (kInput, with line and column): bytes that are not UTF-8, which no JSON could hold later,
 /// and control characters other than tabs and ends of lines: to yaml-cpp some of them are the end;
 /// and lines longer than kLongestLine.

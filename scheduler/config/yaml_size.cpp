@@ -5,7 +5,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
-#include "config/config_text.h"
+#include "base/utf8.h"
 
 namespace seedframe {
 namespace {

@@ -1,5 +1,6 @@
 #include "mesh_files/mesh_builder.h"
 
+#include "base/utf8.h"
 #include "mesh_files/polygon.h"
 
 namespace seedframe {
@@ -15,12 +16,10 @@ std::uint32_t MeshBuilder::add_uv(const std::array<float, 2>& uv) {
 }
 
 void MeshBuilder::use_slot(std::string_view name) {
-  auto found = slots_.find(name);
-  if (found == slots_.end()) {
-    found = slots_.emplace(std::string(name), static_cast<std::uint32_t>(slots_.size())).first;
-    mesh_.slot_names.emplace_back(name);
-  }
-  slot_ = found->second;
+  const auto [slot, is_new] =
+      slots_.emplace(as_utf8(name), static_cast<std::uint32_t>(slots_.size()));
+  if (is_new) mesh_.slot_names.push_back(slot->first);
+  slot_ = slot->second;
 }
 
 Status MeshBuilder::add_polygon(std::span<const PolygonCorner> corners, const std::string& place) {

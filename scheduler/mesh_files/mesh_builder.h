@@ -40,7 +40,8 @@ class MeshBuilder {
   /// Its index. Coordinates are not looked at before finish().
   std::uint32_t add_position(const std::array<float, 3>& position);
   std::uint32_t add_uv(const std::array<float, 2>& uv);
-  /// Polygons that follow are of this slot; "default" without one.
+  /// Polygons that follow are of this slot; "default" without one. A name that is not UTF-8 is
+  /// taken for Latin-1.
   void use_slot(std::string_view name);
   /// Indices must be in range.
   Status add_polygon(std::span<const PolygonCorner> corners, const std::string& place);
@@ -59,7 +60,7 @@ class MeshBuilder {
   std::string file_;
   Mesh mesh_;
   std::vector<std::array<float, 2>> uvs_;
-  std::map<std::string, std::uint32_t, std::less<>> slots_;
+  std::map<std::string, std::uint32_t> slots_;
   std::uint32_t slot_ = 0;
   std::vector<Eigen::Vector3d> points_;  // of the polygon at hand
 };

@@ -19,7 +19,7 @@ class ObjParser {
   explicit ObjParser(const std::string& file) : builder_(file) {}
 
   Result<Mesh> parse(const std::string& text) {
-    std::string_view rest = text;
+    std::string_view rest = without_byte_order_mark(text);
     std::string line;
     while (!rest.empty()) {
       take_joined_line(rest, line);
@@ -60,11 +60,14 @@ class ObjParser {
                             fmt::format(format, std::forward<Args>(args)...));
   }
 
-  Result<std::vector<float>> parse_floats(std::string_view line, std::size_t least) const {
+  // `least` numbers or more, of which the first `used` must be finite.
+  Result<std::vector<float>> parse_floats(std::string_view line, std::size_t least,
+                                          std::size_t used) const {
     std::vector<float> values;
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
       const auto value = parse_number<double>(word);
-      if (!value || !std::isfinite(static_cast<float>(*value))) {
+      const bool wanted = values.size() < used;
+      if (!value || (wanted && !std::isfinite(static_cast<float>(*value)))) {
         return fail_here("expected a finite number, found '{}'", word);
       }
       values.push_back(static_cast<float>(*value));
@@ -76,14 +79,18 @@ class ObjParser {
   }
 
   Status parse_position(std::string_view line) {
-    const auto values = parse_floats(line, 3);  // a weight or a colour may follow
+    const auto values = parse_floats(line, 3, 3);  // a weight or a colour may follow
     if (!values) return forward_error(values);
     builder_.add_position({(*values)[0], (*values)[1], (*values)[2]});
     return {};
   }
 
   Status parse_uv(std::string_view line) {
-    const auto values = parse_floats(line, 1);
+    if (line_without_uvs_ > 0) {
+      return fail_here("texture coordinates must stand above the polygons that name them (line {})",
+                       line_without_uvs_);
+    }
+    const auto values = parse_floats(line, 1, 2);
     if (!values) return forward_error(values);
     builder_.add_uv({(*values)[0], values->size() > 1 ? (*values)[1] : 0.0f});
     return {};
@@ -106,7 +113,7 @@ class ObjParser {
   }
 
   // "3", "3/7", "3//5" or "3/7/5": position, UV and normal.
-  Result<PolygonCorner> parse_corner(std::string_view word) const {
+  Result<PolygonCorner> parse_corner(std::string_view word) {
     const std::size_t slash = word.find('/');
     PolygonCorner corner;
     const auto position = parse_index(word.substr(0, slash), builder_.position_count(), "vertex");
@@ -116,6 +123,11 @@ class ObjParser {
     word.remove_prefix(slash + 1);
     word = word.substr(0, word.find('/'));
     if (word.empty()) return corner;
+    // Some programs number UVs that they do not write.
+    if (builder_.uv_count() == 0 && parse_number<std::int64_t>(word)) {
+      line_without_uvs_ = line_number_;
+      return corner;
+    }
     const auto uv = parse_index(word, builder_.uv_count(), "texture coordinate");
     if (!uv) return forward_error(uv);
     corner.uv = *uv;
@@ -134,6 +146,7 @@ class ObjParser {
 
   std::size_t line_number_ = 0;
   std::size_t next_line_number_ = 1;
+  std::size_t line_without_uvs_ = 0;  // the last that names a UV where the file has none; 0: none
   std::vector<PolygonCorner> corners_;
   MeshBuilder builder_;
 };

@@ -124,7 +124,7 @@ class OffParser {
 Result<Mesh> read_off(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return forward_error(text);
-  return OffParser(path.string(), *text).parse();
+  return OffParser(path.string(), without_byte_order_mark(*text)).parse();
 }
 
 }  // namespace seedframe

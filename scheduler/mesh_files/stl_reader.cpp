@@ -2,6 +2,7 @@
 // left of a file that was cut short.
 #include "mesh_files/stl_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -120,8 +121,10 @@ bool is_text(std::string_view bytes) {
     const auto count = value_from<std::uint32_t>(bytes.substr(80));
     if (bytes.size() == kBinaryHeaderBytes + kTriangleBytes * std::size_t{count}) return false;
   }
-  const std::string_view start = trimmed(bytes.substr(0, kBinaryHeaderBytes));
-  return start.starts_with("solid") && bytes.substr(0, 1024).find('\0') == std::string_view::npos;
+  std::string_view start = without_byte_order_mark(bytes.substr(0, 1024));
+  if (start.find('\0') != std::string_view::npos) return false;
+  start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n\v\f"), start.size()));
+  return start.starts_with("solid");
 }
 
 }  // namespace
@@ -130,7 +133,7 @@ Result<Mesh> read_stl(const std::filesystem::path& path) {
   const auto bytes = read_file(path);
   if (!bytes) return forward_error(bytes);
   const std::string file = path.string();
-  if (is_text(*bytes)) return TextParser(file).parse(*bytes);
+  if (is_text(*bytes)) return TextParser(file).parse(without_byte_order_mark(*bytes));
   if (bytes->size() < kBinaryHeaderBytes) {
     return fail(ErrorKind::kInput,
                 "{}: {} bytes are no STL file: expected 'solid' or a header of {} bytes", file,

@@ -17,6 +17,12 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+/// Without the byte-order mark that some editors put before UTF-8.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
 /// Takes the next line off the front of `rest`, without its end.
 inline std::string_view take_line(std::string_view& rest) {
   const std::size_t end = rest.find('\n');

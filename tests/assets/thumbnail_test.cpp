@@ -45,5 +45,12 @@ TEST(Thumbnail, SlotsDifferInColour) {
   EXPECT_TRUE(tinted);
 }
 
+TEST(Thumbnail, ASlotWithoutTrianglesChangesNothing) {
+  Mesh mesh = example_cube();
+  const Image<std::uint8_t> without = thumbnail(mesh, 32);
+  mesh.slot_names.emplace_back("unused");
+  EXPECT_EQ(thumbnail(mesh, 32).values, without.values);
+}
+
 }  // namespace
 }  // namespace seedframe

@@ -87,6 +87,46 @@ TEST_F(MeshFiles, GltfNodesPlaceScaleAndMirrorTheirMeshes) {
   EXPECT_DOUBLE_EQ(signed_volume_6(*mesh), 96.0) << "a mirrored mesh must not be inside out";
 }
 
+TEST_F(MeshFiles, GltfTakesBase64AsBrowsersDo) {
+  const Mesh cube = example_cube();
+  const auto read_text = [&](const std::string& text) {
+    const std::string uri = R"("uri":"data:application/octet-stream;base64,)" + text + R"(",)";
+    return read("a.gltf", gltf_json(cube, uri));
+  };
+  std::string bytes = gltf_buffer(cube);
+  bytes += bytes.size() % 3 == 0 ? "x" : "";  // so that its text ends in '='
+  const std::string text = base64(bytes);
+  const std::string digits = text.substr(0, text.find_last_not_of('=') + 1);
+  ASSERT_LT(digits.size(), text.size());
+  for (const std::string& good : {text, digits, digits + "====="}) {
+    const auto mesh = read_text(good);
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(mesh->triangles.size(), 12u);
+  }
+  for (const std::string& bad :
+       {" " + text, "    " + text, text + " ", text + "    ", text + "\\n", "=" + text,
+        text.substr(0, 4) + "AB==" + text.substr(4), text.substr(0, 4) + " " + text.substr(4),
+        "-" + text, text.substr(0, 8) + "-_" + text.substr(10), text.substr(0, 8) + "ä" + text,
+        text.substr(0, 8) + "    ", text.substr(0, 8) + "\\n\\n\\n\\n"}) {
+    const auto mesh = read_text(bad);
+    ASSERT_FALSE(mesh) << bad;
+    EXPECT_THAT(mesh.error().message, HasSubstr("expected data in base64")) << bad;
+  }
+  for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{3},
+                                   std::size_t{5}, digits.size() / 2, digits.size() - 5}) {
+    const auto mesh = read_text(text.substr(0, length));
+    ASSERT_FALSE(mesh) << length;
+    EXPECT_THAT(mesh.error().message, HasSubstr(fmt::format("promised, {} found", length * 3 / 4)));
+  }
+}
+
+TEST_F(MeshFiles, GltfDecodesEscapedNamesOfFiles) {
+  ASSERT_TRUE(write_file(folder_ / "a b%2.bin", gltf_buffer(example_cube())));
+  const auto mesh = read("a.gltf", gltf_json(example_cube(), R"("uri":"a%20%62%2.bin",)"));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->triangles.size(), 12u);
+}
+
 TEST_F(MeshFiles, GltfOpensNoFilesOutsideItsFolder) {
   ASSERT_TRUE(write_file(folder_ / "secret.bin", gltf_buffer(example_cube())));
   std::filesystem::create_directories(folder_ / "sub");
@@ -185,6 +225,22 @@ TEST_F(MeshFiles, SaysWhatItCannotRead) {
   expect_error("a.off", "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n", "a.off:4");
   expect_error("a.stl", "solid\nfacet\nouter loop\nvertex 0 0 x\n", "a.stl:4");
   EXPECT_FALSE(read_mesh_file(folder_ / "missing.ply"));
+}
+
+TEST_F(MeshFiles, AsciiStlMayBeginWithBlankLinesOrAByteOrderMark) {
+  const std::string text = stl_text(example_cube());
+  for (const std::string start : {"  \n", "\r\n\t", "\xEF\xBB\xBF"}) {
+    const auto mesh = read("a.stl", start + text);
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(mesh->triangles.size(), 12u);
+  }
+}
+
+TEST_F(MeshFiles, GltfExtensionsOfTexturesDoNotMatter) {
+  std::string text = gltf_text(example_cube());
+  for (const std::string name : {"KHR_texture_transform", "EXT_texture_webp"}) {
+    EXPECT_TRUE(read("a.gltf", R"({"extensionsRequired":[")" + name + R"("],)" + text.substr(1)));
+  }
 }
 
 TEST_F(MeshFiles, WhatAFileBeginsWithWinsOverItsName) {

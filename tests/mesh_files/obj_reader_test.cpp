@@ -78,8 +78,42 @@ TEST_F(ObjReader, NamesTheLineOfWhatIsWrong) {
   expect_error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "part.obj:4", "'0'");
   expect_error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "part.obj:4", "no vertex -4");
   expect_error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3x\n", "part.obj:4", "'3x'");
-  expect_error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2 3\n", "part.obj:4", "no texture coordinate 1");
+  expect_error("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3\n", "part.obj:5",
+               "no texture coordinate 2");
+  expect_error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/x 2 3\n", "part.obj:4", "'x'");
   expect_error("v 0 0 0\nv 1 0 0\n\\\nf 1 2\n", "part.obj:3", "3 corners or more, found 2");
+}
+
+TEST_F(ObjReader, KeepsTheFirstVertexBehindAByteOrderMark) {
+  const auto mesh = read("\xEF\xBB\xBFv 9 9 9\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->positions.size(), 3u);
+  EXPECT_EQ(mesh->positions[0][0], 9.0f);
+}
+
+TEST_F(ObjReader, TakesUvsThatAreNumberedAndNowhereWrittenForNone) {
+  const auto mesh = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/2/7 3/3\n");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_THAT(mesh->corner_uvs,
+              ElementsAre(std::array{0.0f, 0.0f}, std::array{0.0f, 0.0f}, std::array{0.0f, 0.0f}));
+  expect_error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/2 3/3\nvt 0 1\n", "part.obj:5",
+               "must stand above the polygons that name them (line 4)");
+}
+
+TEST_F(ObjReader, LooksAtNoNumbersThatItDoesNotUse) {
+  const auto mesh =
+      read("v 0 0 0 nan nan inf\nv 1 0 0 1e60 0 0\nv 0 1 0\nvt 0 1 nan\nf 1/1 2/1 3/1\n");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->corner_uvs[0][1], 1.0f);
+  expect_error("v 0 0 0 red\n", "part.obj:1", "'red'");
+  expect_error("vt 0 nan\n", "part.obj:1", "finite");
+}
+
+TEST_F(ObjReader, MaterialNamesAreUtf8WhateverTheFileIs) {
+  const auto mesh =
+      read("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Geh\xE4use\nf 1 2 3\nusemtl Gehäuse\nf 1 2 3\n");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_THAT(mesh->slot_names, ElementsAre("Gehäuse"));
 }
 
 TEST_F(ObjReader, RefusesFilesWithoutASurface) {
