@@ -5,21 +5,18 @@
 #include <limits>
 #include <vector>
 
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/convex_hull_2.h>
+
 namespace seedframe {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-struct Point {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
-};
+using Kernel = CGAL::Simple_cartesian<std::int64_t>;  // exact: pixels are whole numbers
+using Point = Kernel::Point_2;
 
-std::int64_t turn(const Point& a, const Point& b, const Point& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-/// Corners of the first and the last pixel of every row, by y, then x.
+/// Corners of the first and the last pixel of every row.
 std::vector<Point> outermost_corners(const Mask& mask) {
   const PixelBox& box = mask.box();
   std::vector<Point> corners;
@@ -31,28 +28,20 @@ std::vector<Point> outermost_corners(const Mask& mask) {
     while (last >= first && !mask.at(row, last)) --last;
     if (first > last) continue;
     for (const int y : {row, row + 1}) {
-      corners.push_back({first, y});
-      corners.push_back({last + 1, y});
+      corners.emplace_back(first, y);
+      corners.emplace_back(last + 1, y);
     }
   }
-  std::sort(corners.begin(), corners.end(),
-            [](const Point& a, const Point& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
   return corners;
 }
 
-/// Andrew's monotone chain (1979), without points on straight lines.
+/// Begins at the point of least y and, among these, least x: of rectangles of the same area the
+/// first counts.
 std::vector<Point> convex_hull(const std::vector<Point>& points) {
   std::vector<Point> hull;
-  const auto add = [&hull](const Point& point, std::size_t least) {
-    while (hull.size() >= least + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0) {
-      hull.pop_back();
-    }
-    hull.push_back(point);
-  };
-  for (const Point& point : points) add(point, 0);
-  const std::size_t half = hull.size() - 1;
-  for (auto point = points.rbegin(); point != points.rend(); ++point) add(*point, half);
-  hull.pop_back();  // the first again
+  CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(hull), Kernel());
+  const auto first = std::min_element(hull.begin(), hull.end(), Kernel::Less_yx_2());
+  std::rotate(hull.begin(), first, hull.end());
   return hull;
 }
 
@@ -71,8 +60,8 @@ Rectangle rectangle_along(const std::vector<Point>& hull, std::int64_t dx, std::
   std::array<std::int64_t, 2> high = {std::numeric_limits<std::int64_t>::min(),
                                       std::numeric_limits<std::int64_t>::min()};
   for (const Point& point : hull) {
-    const std::array<std::int64_t, 2> at = {point.x * dx + point.y * dy,
-                                            point.y * dx - point.x * dy};
+    const std::array<std::int64_t, 2> at = {point.x() * dx + point.y() * dy,
+                                            point.y() * dx - point.x() * dy};
     for (std::size_t i = 0; i < 2; ++i) {
       low[i] = std::min(low[i], at[i]);
       high[i] = std::max(high[i], at[i]);
@@ -107,10 +96,10 @@ Supports supports_at(const std::vector<Point>& hull, double angle) {
   const double s = std::sin(angle);
   Supports found{hull[0], hull[0], hull[0], hull[0]};
   const auto u = [&](const Point& p) {
-    return static_cast<double>(p.x) * c + static_cast<double>(p.y) * s;
+    return static_cast<double>(p.x()) * c + static_cast<double>(p.y()) * s;
   };
   const auto v = [&](const Point& p) {
-    return static_cast<double>(p.y) * c - static_cast<double>(p.x) * s;
+    return static_cast<double>(p.y()) * c - static_cast<double>(p.x()) * s;
   };
   for (const Point& point : hull) {
     if (u(point) < u(found.low_u)) found.low_u = point;
@@ -127,9 +116,9 @@ struct Corner {
   std::array<double, 2> middle, cosine, sine;
 
   Corner(const Point& p, const Point& q)
-      : middle{static_cast<double>(p.x + q.x) / 2, static_cast<double>(p.y + q.y) / 2},
-        cosine{static_cast<double>(p.x - q.x) / 2, -static_cast<double>(p.y - q.y) / 2},
-        sine{static_cast<double>(p.y - q.y) / 2, static_cast<double>(p.x - q.x) / 2} {}
+      : middle{static_cast<double>(p.x() + q.x()) / 2, static_cast<double>(p.y() + q.y()) / 2},
+        cosine{static_cast<double>(p.x() - q.x()) / 2, -static_cast<double>(p.y() - q.y()) / 2},
+        sine{static_cast<double>(p.y() - q.y()) / 2, static_cast<double>(p.x() - q.x()) / 2} {}
 
   std::array<double, 2> at(double angle) const {
     const double c = std::cos(2 * angle);
@@ -159,7 +148,7 @@ Rectangle smallest_in_image(const std::vector<Point>& hull, const Mask& mask) {
     const Point& from = hull[i];
     const Point& to = hull[i + 1 < hull.size() ? i + 1 : 0];
     const double angle =
-        std::atan2(static_cast<double>(to.y - from.y), static_cast<double>(to.x - from.x));
+        std::atan2(static_cast<double>(to.y() - from.y()), static_cast<double>(to.x() - from.x()));
     turns.push_back(angle - std::floor(angle / (kPi / 2)) * (kPi / 2));
   }
   std::sort(turns.begin(), turns.end());
@@ -209,7 +198,7 @@ OrientedBox smallest_rectangle(const Mask& mask) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Point& from = hull[i];
     const Point& to = hull[i + 1 < hull.size() ? i + 1 : 0];
-    const Rectangle candidate = rectangle_along(hull, to.x - from.x, to.y - from.y, mask);
+    const Rectangle candidate = rectangle_along(hull, to.x() - from.x(), to.y() - from.y(), mask);
     if (candidate.area < best.area) best = candidate;
   }
   if (best.in_image) return {best.corners, true};

@@ -15,7 +15,7 @@ struct OrientedBox {
 
 /// Around the squares of the mask's pixels, among the rectangles whose corners all lie in the
 /// image; the upright box is always one of them. One side of the smallest rectangle of all lies on
-/// an edge of the convex hull (Freeman & Shapira 1975).
+/// an edge of the convex hull (Freeman & Shapira 1975; the hull is CGAL's).
 OrientedBox smallest_rectangle(const Mask& mask);
 
 }  // namespace seedframe

@@ -1,7 +1,7 @@
 #include "mesh_files/mesh_builder.h"
 
 #include "base/utf8.h"
-#include "mesh_files/polygon.h"
+#include "mesh_files/triangulate.h"
 
 namespace seedframe {
 

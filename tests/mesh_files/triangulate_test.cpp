@@ -1,4 +1,4 @@
-#include "mesh_files/polygon.h"
+#include "mesh_files/triangulate.h"
 
 #include <Eigen/Geometry>
 

@@ -1,12 +1,16 @@
-#include "mesh_files/polygon.h"
+// Not CGAL's constrained triangulation: it merges corners at one place, as the ends of a bridge to
+// a hole are, and has no answer to a polygon that crosses itself.
+#include "mesh_files/triangulate.h"
 
 #include <Eigen/Geometry>
 #include <numeric>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
 namespace seedframe {
 namespace {
 
-using Eigen::Vector2d;
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
 using Ring = std::vector<std::size_t>;
 
 Eigen::Vector3d newell_normal(const std::vector<Eigen::Vector3d>& corners) {
@@ -21,14 +25,14 @@ Eigen::Vector3d newell_normal(const std::vector<Eigen::Vector3d>& corners) {
 }
 
 // Drops the axis in which the polygon is thinnest, keeping it counter-clockwise.
-std::vector<Vector2d> project(const std::vector<Eigen::Vector3d>& corners) {
+std::vector<Point> project(const std::vector<Eigen::Vector3d>& corners) {
   const Eigen::Vector3d normal = newell_normal(corners);
   Eigen::Index drop = 0;
   normal.cwiseAbs().maxCoeff(&drop);
   Eigen::Index u = (drop + 1) % 3;
   Eigen::Index v = (drop + 2) % 3;
   if (normal[drop] < 0.0) std::swap(u, v);
-  std::vector<Vector2d> flat;
+  std::vector<Point> flat;
   flat.reserve(corners.size());
   for (const auto& corner : corners) {
     flat.emplace_back(corner[u] - corners[0][u], corner[v] - corners[0][v]);
@@ -36,26 +40,21 @@ std::vector<Vector2d> project(const std::vector<Eigen::Vector3d>& corners) {
   return flat;
 }
 
-double doubled_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-bool is_inside(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& p) {
-  return doubled_area(a, b, p) >= 0.0 && doubled_area(b, c, p) >= 0.0 &&
-         doubled_area(c, a, p) >= 0.0;
+bool is_inside(const Point& a, const Point& b, const Point& c, const Point& p) {
+  return !CGAL::right_turn(a, b, p) && !CGAL::right_turn(b, c, p) && !CGAL::right_turn(c, a, p);
 }
 
 // Whether the corner at ring[i] can be cut off: convex, and no other corner in its triangle.
-bool is_ear(const std::vector<Vector2d>& points, const Ring& ring, std::size_t i) {
+bool is_ear(const std::vector<Point>& points, const Ring& ring, std::size_t i) {
   const std::size_t n = ring.size();
   const std::size_t before = ring[(i + n - 1) % n];
   const std::size_t after = ring[(i + 1) % n];
-  const Vector2d& a = points[before];
-  const Vector2d& b = points[ring[i]];
-  const Vector2d& c = points[after];
-  if (doubled_area(a, b, c) <= 0.0) return false;
+  const Point& a = points[before];
+  const Point& b = points[ring[i]];
+  const Point& c = points[after];
+  if (!CGAL::left_turn(a, b, c)) return false;
   for (const std::size_t other : ring) {
-    const Vector2d& p = points[other];
+    const Point& p = points[other];
     // Corners that coincide with the triangle's own (a bridge to a hole) do not block it.
     if (p == a || p == b || p == c) continue;
     if (is_inside(a, b, c, p)) return false;
@@ -76,7 +75,7 @@ std::size_t first_candidate(const std::vector<Eigen::Vector3d>& corners) {
 std::vector<std::array<std::size_t, 3>> triangulate(const std::vector<Eigen::Vector3d>& corners) {
   std::vector<std::array<std::size_t, 3>> triangles;
   if (corners.size() < 3) return triangles;
-  const std::vector<Vector2d> points = project(corners);
+  const std::vector<Point> points = project(corners);
   Ring ring(corners.size());
   std::iota(ring.begin(), ring.end(), std::size_t{0});
   std::size_t i = first_candidate(corners);
