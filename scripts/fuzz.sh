@@ -2,7 +2,7 @@
 # Coverage-guided fuzzing (libFuzzer, with AddressSanitizer and UndefinedBehaviorSanitizer) of what reads bytes
 # from elsewhere, tests/fuzz/targets.h. Each target starts from its corpus in tests/fuzz/corpus/. Prints a line a
 # target; fails if an input crashes, hangs, leaks, breaks a promise, or asks for 256 MB at once, and keeps it in
-# build/fuzz/crashes/: mend the program, and add the input to the corpus.
+# build/fuzz/crashes/: fix the program, and add the input to the corpus.
 #
 #   scripts/fuzz.sh [--table FILE] [SECONDS [TARGET…]]    600 seconds each; all targets
 #

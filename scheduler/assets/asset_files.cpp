@@ -118,19 +118,20 @@ Json to_json(const LevelRecord& level, double size_m) {
           {"error_share", rounded_up(level.error_m / size_m)}};
 }
 
+Status first_failure(std::initializer_list<Status> statuses) {
+  const auto failed =
+      std::find_if(statuses.begin(), statuses.end(), [](const Status& status) { return !status; });
+  return failed == statuses.end() ? Status() : *failed;
+}
+
 Status read_level(const Json& json, const std::string& what, LevelRecord& out) {
-  for (const Status& status :
-       {read_field(json, "file", what, out.file), read_field(json, "sha256", what, out.sha256),
-        read_field(json, "triangles", what, out.triangles),
-        read_field(json, "vertices", what, out.vertices),
-        read_field(json, "bytes", what, out.bytes),
-        read_field(json, "position_bits", what, out.position_bits),
-        read_field(json, "pixels", what, out.pixels),
-        read_field(json, "bound_m", what, out.bound_m),
-        read_field(json, "error_m", what, out.error_m)}) {
-    if (!status) return status;
-  }
-  return {};
+  return first_failure(
+      {read_field(json, "file", what, out.file), read_field(json, "sha256", what, out.sha256),
+       read_field(json, "triangles", what, out.triangles),
+       read_field(json, "vertices", what, out.vertices), read_field(json, "bytes", what, out.bytes),
+       read_field(json, "position_bits", what, out.position_bits),
+       read_field(json, "pixels", what, out.pixels), read_field(json, "bound_m", what, out.bound_m),
+       read_field(json, "error_m", what, out.error_m)});
 }
 
 Status read_levels(const Json& json, const std::string& what, std::vector<LevelRecord>& out) {
@@ -172,18 +173,17 @@ Status read_measures(const Json& json, const std::string& what, AssetDescription
   if (Status status = read_field(json, "measures", what, object); !status) return status;
   const std::string place = what + ": measures";
   std::vector<double> size;
-  for (const Status& status :
-       {read_field(object, "size_m", place, size),
-        read_field(object, "area_m2", place, measures.area_m2),
-        read_optional(object, "volume_m3", place, measures.volume_m3),
-        read_field(object, "watertight", place, measures.watertight),
-        read_field(object, "boundary_edges", place, measures.boundary_edges),
-        read_field(object, "bad_edges", place, measures.bad_edges),
-        read_field(object, "parts", place, measures.parts),
-        read_optional(object, "genus", place, measures.genus),
-        read_field(object, "self_intersections", place, out.self_intersections)}) {
-    if (!status) return status;
-  }
+  Status read =
+      first_failure({read_field(object, "size_m", place, size),
+                     read_field(object, "area_m2", place, measures.area_m2),
+                     read_optional(object, "volume_m3", place, measures.volume_m3),
+                     read_field(object, "watertight", place, measures.watertight),
+                     read_field(object, "boundary_edges", place, measures.boundary_edges),
+                     read_field(object, "bad_edges", place, measures.bad_edges),
+                     read_field(object, "parts", place, measures.parts),
+                     read_optional(object, "genus", place, measures.genus),
+                     read_field(object, "self_intersections", place, out.self_intersections)});
+  if (!read) return read;
   if (size.size() != 3) {
     return fail(ErrorKind::kCorrupt, "{}: 'size_m' must be three numbers", place);
   }
@@ -216,15 +216,14 @@ Result<AssetDescription> read_asset_description(const fs::path& folder) {
   if (!json) return forward_error(json);
   if (Status status = check_version(*json, what); !status) return forward_error(status);
   AssetDescription out;
-  for (const Status& status :
-       {read_field(*json, "name", what, out.name),
-        read_field(*json, "description", what, out.description),
-        read_field(*json, "category", what, out.category),
-        read_field(*json, "smooth_angle_deg", what, out.smooth_angle_deg),
-        read_field(*json, "slots", what, out.slots), read_field(*json, "source", what, out.source),
-        read_levels(*json, what, out.levels), read_measures(*json, what, out)}) {
-    if (!status) return forward_error(status);
-  }
+  const Status read = first_failure(
+      {read_field(*json, "name", what, out.name),
+       read_field(*json, "description", what, out.description),
+       read_field(*json, "category", what, out.category),
+       read_field(*json, "smooth_angle_deg", what, out.smooth_angle_deg),
+       read_field(*json, "slots", what, out.slots), read_field(*json, "source", what, out.source),
+       read_levels(*json, what, out.levels), read_measures(*json, what, out)});
+  if (!read) return forward_error(read);
   if (const auto found = json->find("keypoints"); found != json->end()) {
     auto keypoints = keypoints_from_json(*found, what + ": keypoints");
     if (!keypoints) return forward_error(keypoints);

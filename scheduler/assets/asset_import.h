@@ -30,7 +30,7 @@ struct AssetImport {
   bool dry_run = false;  ///< everything but writing
 };
 
-/// What was found, mended and measured; asset.json holds the same.
+/// What was found, repaired and measured; asset.json holds the same.
 struct ImportReport {
   AssetDescription description;
   std::vector<std::string> warnings;  ///< a sentence each

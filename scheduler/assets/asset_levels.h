@@ -40,7 +40,8 @@ struct StoredLevel {
 
 /// Level 0 is the mesh itself, compressed. error_m of level 0, and its sum with that of any other
 /// level, is within the level's bound_m: a level for which no such mesh was found is left out. A
-/// mesh that is no oriented manifold, or larger than kMostSimplifiedTriangles, has no other levels.
+/// mesh that is not an oriented manifold, or larger than kMostSimplifiedTriangles, has no other
+/// levels.
 Result<std::vector<StoredLevel>> make_levels(const Mesh& mesh, const LevelOptions& options,
                                              const std::string& what);
 

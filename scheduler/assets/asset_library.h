@@ -46,8 +46,8 @@ struct Asset {
   double lowest_z(const Eigen::Matrix3d& linear) const { return lowest.z(linear); }
 };
 
-/// The assets of one or more folders; of two with one name the earlier folder's counts. Cheap to
-/// copy (copies share their cache), safe to use from several threads.
+/// The assets of one or more folders; where two have the same name, the earlier folder's is used.
+/// Cheap to copy (copies share their cache), safe to use from several threads.
 class AssetLibrary {
  public:
   /// A root that is not a folder is an error. Looks for names only; meshes are read by load. Files
@@ -67,7 +67,7 @@ class AssetLibrary {
   Result<std::shared_ptr<const Asset>> load(const std::string& name) const;
 
   /// Reads, checks and keeps levels[level] of an asset, as load does. Level 0 is the asset's own
-  /// mesh again. A level that there is not is an error (kInput).
+  /// mesh again. A level that does not exist is an error (kInput).
   Result<std::shared_ptr<const LevelMesh>> load_level(const std::string& name,
                                                       std::size_t level) const;
 

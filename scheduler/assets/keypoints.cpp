@@ -20,7 +20,7 @@ Status check_pairs(const std::vector<std::array<std::string, 2>>& pairs,
   for (const auto& pair : pairs) {
     for (const std::string& name : pair) {
       if (names.count(name) == 0) {
-        return fail(ErrorKind::kInput, "{}: '{}-{}' joins a keypoint '{}', which there is not",
+        return fail(ErrorKind::kInput, "{}: '{}-{}' joins the keypoint '{}', which does not exist",
                     what, pair[0], pair[1], name);
       }
     }
@@ -49,7 +49,8 @@ Status check_keypoints(const KeypointSet& keypoints, const std::string& what) {
       return fail(ErrorKind::kInput, "{}: two keypoints are named '{}'", what, point.name);
     }
     if (!point.point_m.allFinite()) {
-      return fail(ErrorKind::kInput, "{}: the keypoint '{}' is not at a place", what, point.name);
+      return fail(ErrorKind::kInput, "{}: the keypoint '{}' needs three finite coordinates", what,
+                  point.name);
     }
   }
   if (Status joined = check_pairs(keypoints.skeleton, names, what); !joined) return joined;

@@ -17,8 +17,8 @@ struct KeypointSet {
   std::vector<std::array<std::string, 2>> mirrored;  ///< left and right: a flip swaps them
 };
 
-/// A kInput error for names that are empty, twice there, or joined without being there, and for
-/// coordinates that are not finite.
+/// A kInput error for names that are empty or stand twice, for a join of points that do not exist,
+/// and for coordinates that are not finite.
 Status check_keypoints(const KeypointSet& keypoints, const std::string& what);
 
 Json to_json(const KeypointSet& keypoints);

@@ -35,7 +35,7 @@ std::string readable_json(const Json& value);
 /// copying and printing take stack for each.
 Result<Json> parse_json(std::string_view text, const std::string& what);
 
-/// The integer that a value is, if it is one and a T can hold it; a boolean or a fraction is none.
+/// The integer that a value is, if it is one and a T can hold it; booleans and fractions are not.
 /// Json's own get would cut a number to the type's bits.
 template <std::integral T>
 std::optional<T> integer_in(const Json& value) {

@@ -1,4 +1,4 @@
-// What time it is, for what is told to people; no result depends on it.
+// The time of day, for messages to people; no result depends on it.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Expected failures are values: Result<T> is a T or an Error that a stranger can act on.
+// Expected failures are values: Result<T> is a T or an Error that a user can act on.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace seedframe {
 
-/// What went wrong, by who can mend it; it decides the exit code of the program.
+/// What went wrong, by who can fix it; it decides the exit code of the program.
 enum class ErrorKind {
-  kInput,        ///< a config, asset, option or argument is wrong: mend it and run again
+  kInput,        ///< a config, asset, option or argument is wrong: fix it and run again
   kEnvironment,  ///< Blender, the disk or the system is not as needed
-  kExhausted,  ///< the same, but it may pass: a disk is full or ails, memory or descriptors ran out
-  kCorrupt,    ///< something that Seedframe wrote is no longer what it wrote
-  kRender,     ///< a worker could not render a frame
+  kExhausted,    ///< the same, but it may pass: a full or failing disk, no memory or descriptors
+  kCorrupt,      ///< something that Seedframe wrote is no longer what it wrote
+  kRender,       ///< a worker could not render a frame
 };
 
 /// A message says what was expected, what was found, where, and what to do.

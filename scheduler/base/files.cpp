@@ -75,8 +75,9 @@ Result<std::string> read_file(const fs::path& path, std::uintmax_t most) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return system_failure("read", path, errno == 0 ? EIO : errno);
   const auto too_large = [&] {
-    return fail(ErrorKind::kInput, "{} has more than {} bytes, the most that are read of it",
-                path.string(), most);
+    return fail(ErrorKind::kInput,
+                "{} has more than {} bytes, the most that are read of such a file", path.string(),
+                most);
   };
   std::string bytes;
   const std::uintmax_t size = fs::file_size(path, error);

@@ -19,19 +19,21 @@ tl::unexpected<Error> system_failure(const char* action, const std::filesystem::
 /// As system_failure judges it.
 ErrorKind kind_of_errno(int error);
 
-/// Of a file that is read as a whole, whatever it is.
+/// The most bytes that are read of any file as a whole.
 inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{4} << 30;
 
-/// A file of more than `most` bytes is an error (kInput), also when it has no end, as a device.
+/// A file of more than `most` bytes is an error (kInput), as is one without an end, such as a
+/// device.
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::uintmax_t most = kLargestFile);
 
-/// Writes `bytes` to `path` and forces them to the disk. A symbolic link there is an error, so that
-/// nobody can have another file overwritten. Not atomic: for files inside a folder that
-/// is itself renamed into place.
+/// Writes `bytes` to `path` and forces them to the disk. A symbolic link there is an error, or
+/// somebody could have another file overwritten. Not atomic: for files inside a folder that is
+/// itself renamed into place.
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// write_file without the wait for the disk: somebody calls sync_filesystem before the file counts.
+/// write_file without the wait for the disk: the caller must call sync_filesystem before anything
+/// depends on the file.
 Status write_file_unsynced(const std::filesystem::path& path, std::string_view bytes);
 
 /// Writes beside `path`, forces to disk and renames over it.

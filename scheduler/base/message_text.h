@@ -1,4 +1,4 @@
-// Texts of strangers in messages and lists.
+// Text from outside, made fit for messages and lists.
 #pragma once
 
 #include <string>

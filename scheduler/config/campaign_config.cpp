@@ -178,7 +178,7 @@ void read_categories(SectionReader& section, CampaignConfig& config) {
     }
     if (!seen.insert(category).second) {
       section.errors().add(section.node().find("categories")->place(),
-                           "the category '" + category + "' stands twice");
+                           "the category '" + category + "' is listed twice");
     }
   }
   constexpr std::size_t kMostCategories = 255;  // semantic.png has 8 bits
@@ -197,7 +197,7 @@ bool is_name_character(char c) {
 
 bool may_begin_name(char c) { return c != '.' && c != '-'; }
 
-/// That of the file, made to fit: it may come from a stranger as the config does.
+/// That of the file, made to fit: like the config, it may come from anybody.
 std::string default_campaign_name(const std::filesystem::path& file) {
   std::string name = file.stem().string().substr(0, kLongestName);
   if (name.empty()) return "campaign";

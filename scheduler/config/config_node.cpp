@@ -55,7 +55,7 @@ class TreeCheck {
         const std::string& key = entry.first.Scalar();
         if (!seen.insert(key).second) {
           errors_.add(yaml_place(file_, entry.first.Mark(), join_path(path, key)),
-                      "this key stands twice in the same mapping");
+                      "this key is given twice in the same mapping");
         }
         walk(entry.second, join_path(path, key), depth + 1);
       }
@@ -195,7 +195,7 @@ Result<ConfigNode> ConfigNode::parse(const std::string& text, Source source, int
   if (!errors.empty()) return tl::unexpected(errors.as_error());
   if (root->IsMap() && (*root)["base"].IsDefined()) {
     if (bases == kMostBases) {
-      return fail(ErrorKind::kInput, "{}: more than {} configs stand on each other by 'base'", file,
+      return fail(ErrorKind::kInput, "{}: more than {} configs in a chain of 'base'", file,
                   kMostBases);
     }
     std::filesystem::path base_file;

@@ -9,7 +9,7 @@
 namespace seedframe {
 
 SweepConfig read_sweep(SectionReader& campaign);
-/// A constraint on an object that there is not is an error.
+/// A constraint on an object that does not exist is an error.
 std::vector<ConstraintConfig> read_constraints(SectionReader& campaign,
                                                const std::vector<ObjectConfig>& objects);
 

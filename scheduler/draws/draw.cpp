@@ -142,7 +142,7 @@ std::shared_ptr<const NumberDraw::Random> NumberDraw::compile_random(const Numbe
   if (distribution.sobol_dimension) {
     if (scope.copies || level == Level::kCampaign) {
       errors.add(source.place,
-                 "sobol covers scenes or frames evenly, and here are neither: draw it in "
+                 "sobol covers scenes or frames evenly, and there are neither here: draw it in "
                  "variables.scene or variables.frame, and use that variable here");
     }
     random.sobol = SobolDimension(*distribution.sobol_dimension);

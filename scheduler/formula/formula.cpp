@@ -402,7 +402,7 @@ class Builder {
     if (is_zero(node.children[1])) first.dimension = second.dimension;
     if (is_zero(node.children[2])) second.dimension = first.dimension;
     if (first == second) return add(Code::kCondition, first, inputs);
-    refuse("the two results of '?' must be alike, found " + describe(first) + " and " +
+    refuse("the two results of '?' must be of the same type, found " + describe(first) + " and " +
            describe(second));
     return 0;
   }

@@ -134,7 +134,8 @@ ColorManagement& ColorManagement::operator=(ColorManagement&&) noexcept = defaul
 
 Result<ColorManagement> ColorManagement::load(const std::filesystem::path& ocio_config) {
   const Result<std::string> hash = sha256_of_file(ocio_config);
-  if (!hash) return fail(ErrorKind::kInput, "no OCIO config: {}", hash.error().message);
+  if (!hash)
+    return fail(ErrorKind::kInput, "cannot read the OCIO config: {}", hash.error().message);
   auto state = std::make_unique<State>();
   state->hash = *hash;
   state->path = ocio_config.string();

@@ -36,7 +36,7 @@ T little_endian(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// OpenEXR believes the stated length of an attribute and gives it memory before it reads it, up to
+/// OpenEXR trusts the stated length of an attribute and allocates that before it reads it, up to
 /// 2 GB. So walk the header first: every length must lie inside the file and be that of its type,
 /// and the file must be one part of scan lines. Returns what is wrong, or null.
 const char* exr_header_fault(std::string_view bytes);
@@ -44,8 +44,8 @@ const char* exr_header_fault(std::string_view bytes);
 /// Where the table of a file's blocks begins; for a header without a fault.
 std::size_t exr_header_end(std::string_view bytes);
 
-/// OpenEXR gives memory for as many pixels as the header claims. Returns what is wrong with more
-/// than a lossless compression can hold in `file_bytes`, or null.
+/// OpenEXR allocates memory for as many pixels as the header claims. Returns what is wrong with
+/// more than a lossless compression can hold in `file_bytes`, or null.
 const char* exr_size_fault(const Imf::Header& header, std::size_t file_bytes);
 
 }  // namespace seedframe

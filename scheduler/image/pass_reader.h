@@ -37,7 +37,7 @@ struct FramePasses {
 /// that could be meant, another size, another compression than ZIP or run lengths, NaN or infinite
 /// values (the depth of the background is a number, 1e10 in Blender), an index that is fractional,
 /// negative or above max_instance_id. Each names the file, the pass and the first bad pixel. A
-/// lying header is refused before it gets memory.
+/// header that claims too much is refused before memory is allocated for it.
 Result<FramePasses> read_passes(const std::filesystem::path& path, const PassExpectation& expected);
 
 }  // namespace seedframe

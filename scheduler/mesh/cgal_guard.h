@@ -15,7 +15,7 @@ namespace seedframe {
 /// precondition to too little memory, becomes an error (kInput) that says what was tried.
 template <class Function>
 auto guard_cgal(const std::string& what, Function&& function) -> decltype(function()) {
-  // The default, but a process may have set otherwise: an abort is no answer to a strange mesh.
+  // The default, but a process may have set it otherwise: a strange mesh must not abort it.
   CGAL::set_error_behaviour(CGAL::THROW_EXCEPTION);
   try {
     return std::forward<Function>(function)();

@@ -14,6 +14,31 @@ void append(TracedSurface::Samples& to, const TracedSurface::Samples& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+// Gives each sample to the part that is nearest now; false if one is too far from all of them.
+template <class Part, class SquaredDistance>
+bool hand_out(TracedSurface::Samples samples, std::vector<Part>& parts,
+              TracedSurface::Samples Part::*held, const SimplifyOriginal& original,
+              double squared_tolerance, const SquaredDistance& squared_distance) {
+  for (Part& part : parts) {
+    append(samples, part.*held);
+    (part.*held).clear();
+  }
+  for (const std::uint32_t sample : samples) {
+    const Vector& p = original.samples[sample];
+    Part* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (Part& part : parts) {
+      const double distance = squared_distance(p, part);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &part;
+    }
+    if (nearest == nullptr || least > squared_tolerance) return false;
+    (nearest->*held).push_back(sample);
+  }
+  return true;
+}
+
 }  // namespace
 
 TracedSurface::TracedSurface(CgalSurface from)
@@ -94,50 +119,19 @@ bool CollapseRing::keeps_direction() const {
   });
 }
 
-// Each sample of the original goes to the triangle that is nearest now.
 bool CollapseRing::keeps_original_near(const SimplifyOriginal& original, double squared_tolerance) {
   if (triangles_.empty()) return false;
-  TracedSurface::Samples samples = loose_on_;
-  for (Triangle& triangle : triangles_) {
-    append(samples, triangle.on);
-    triangle.on.clear();
-  }
-  for (const std::uint32_t sample : samples) {
-    const Vector& p = original.samples[sample];
-    Triangle* nearest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    for (Triangle& t : triangles_) {
-      const double distance = squared_distance_to_triangle(p, t.at_a, t.at_b, point_);
-      if (distance >= least) continue;
-      least = distance;
-      nearest = &t;
-    }
-    if (nearest == nullptr || least > squared_tolerance) return false;
-    nearest->on.push_back(sample);
-  }
-  return true;
+  return hand_out(loose_on_, triangles_, &Triangle::on, original, squared_tolerance,
+                  [this](const Vector& p, const Triangle& t) {
+                    return squared_distance_to_triangle(p, t.at_a, t.at_b, point_);
+                  });
 }
 
 bool CollapseRing::keeps_lines_near(const SimplifyOriginal& original, double squared_tolerance) {
-  TracedSurface::Samples samples = loose_along_;
-  for (Spoke& spoke : spokes_) {
-    append(samples, spoke.along);
-    spoke.along.clear();
-  }
-  for (const std::uint32_t sample : samples) {
-    const Vector& p = original.samples[sample];
-    Spoke* nearest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    for (Spoke& spoke : spokes_) {
-      const double distance = squared_distance_to_segment(p, spoke.at, point_);
-      if (distance >= least) continue;
-      least = distance;
-      nearest = &spoke;
-    }
-    if (nearest == nullptr || least > squared_tolerance) return false;
-    nearest->along.push_back(sample);
-  }
-  return true;
+  return hand_out(loose_along_, spokes_, &Spoke::along, original, squared_tolerance,
+                  [this](const Vector& p, const Spoke& spoke) {
+                    return squared_distance_to_segment(p, spoke.at, point_);
+                  });
 }
 
 bool CollapseRing::stays_near_original(const SimplifyOriginal& original,

@@ -21,7 +21,7 @@ struct SurfaceDistance {
 Result<SurfaceDistance> hausdorff_distance(const Mesh& a, const Mesh& b, double tolerance_m,
                                            const std::string& what);
 
-/// From below only, but in a moment: the greatest distance of the vertices, middles of edges and
+/// A lower bound only, but quickly: the greatest distance of the vertices, middles of edges and
 /// centres of triangles of each from the other; upper_m is infinite.
 Result<SurfaceDistance> sampled_distance(const Mesh& a, const Mesh& b, const std::string& what);
 

@@ -19,7 +19,7 @@ struct MeshMeasures {
   double area_m2 = 0.0;
   std::size_t boundary_edges = 0;   ///< with one triangle
   std::size_t bad_edges = 0;        ///< with more than two, or two that run the same way
-  bool watertight = false;          ///< neither of both
+  bool watertight = false;          ///< neither kind
   std::size_t parts = 0;            ///< connected by edges
   std::optional<double> volume_m3;  ///< of a watertight mesh; parts that overlap count twice
   std::optional<long> genus;        ///< of a watertight mesh: holes through it, over all its parts

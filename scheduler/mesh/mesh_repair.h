@@ -1,4 +1,4 @@
-// Finds what is wrong with a mesh from a file and mends what can be mended.
+// Finds what is wrong with a mesh from a file and repairs what can be repaired.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct RepairReport {
   std::size_t filled_holes = 0;
   std::size_t added_triangles = 0;  ///< by filling holes
 
-  /// Whether the mesh is another one than before.
+  /// Whether the mesh was changed.
   bool changed() const;
 };
 

@@ -33,7 +33,7 @@ struct Counter {
 Result<std::size_t> count_self_intersections(const Mesh& mesh, const std::string& what) {
   return guard_cgal(what + ": looking for self-intersections", [&]() -> Result<std::size_t> {
     const auto surface = cgal_surface(mesh);
-    if (!surface) return fail(ErrorKind::kInput, "{}: the mesh is no oriented manifold", what);
+    if (!surface) return fail(ErrorKind::kInput, "{}: the mesh is not an oriented manifold", what);
     std::size_t count = 0;
     CGAL::Polygon_mesh_processing::self_intersections(
         *surface, Counter{&count},

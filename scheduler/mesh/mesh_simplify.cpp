@@ -234,7 +234,7 @@ MeshSimplifier::~MeshSimplifier() = default;
 Result<MeshSimplifier> MeshSimplifier::create(const Mesh& mesh, const std::string& what) {
   return guard_cgal(what + ": simplifying the mesh", [&]() -> Result<MeshSimplifier> {
     auto surface = cgal_surface(mesh);
-    if (!surface) return fail(ErrorKind::kInput, "{}: the mesh is no oriented manifold", what);
+    if (!surface) return fail(ErrorKind::kInput, "{}: the mesh is not an oriented manifold", what);
     const auto original = keep_original(mesh);
     auto state = std::make_unique<State>(
         State{.what = what, .original = original, .traced = TracedSurface(std::move(*surface))});

@@ -16,9 +16,8 @@ namespace seedframe {
 ///   them, and the new triangles' corners, centres and middles of edges within the tolerance of the
 ///   original (after Klein, Liebich and Strasser, "Mesh reduction with error control", 1996): what
 ///   is between these points must be measured afterwards;
-/// - open borders, borders of slots and UV seams stay lines that the original's vertices on them
-/// are
-///   within the tolerance of, with the same ends;
+/// - open borders, borders of slots and UV seams stay lines with the same ends, within the
+///   tolerance of the original's vertices on them;
 /// - no triangle turns by more than about 75 degrees.
 ///
 /// Deterministic.

@@ -122,7 +122,7 @@ Status GltfFile::split_container(std::string_view bytes) {
     constexpr std::uint32_t kJson = 0x4e4f534a;
     constexpr std::uint32_t kBin = 0x004e4942;
     if (*length != bytes.size() || *json_type != kJson || *json_length > rest.size()) {
-      return fail_at("", "the file is cut short or damaged: it says {} bytes, there are {}",
+      return fail_at("", "the file is cut short or damaged: its header says {} bytes, there are {}",
                      *length, bytes.size());
     }
     text = rest.substr(0, *json_length);
@@ -193,7 +193,7 @@ Status GltfFile::load_buffers(const fs::path& folder) {
 Result<std::string> GltfFile::load_buffer(const Json& buffer, bool first, const fs::path& folder,
                                           const std::string& place) const {
   const auto length = gltf_index(buffer, "byteLength");
-  if (!length) return fail_at(place, "byteLength is missing or no whole number");
+  if (!length) return fail_at(place, "byteLength is missing or not a whole number");
   const Json uri = buffer.value("uri", Json());
   std::string bytes;
   if (uri.is_null() && first && has_chunk_) {
@@ -241,7 +241,7 @@ Result<std::string_view> GltfFile::view_bytes(std::uint64_t index, std::uint64_t
   }
   const std::string_view bytes = buffers_[*buffer];
   if (*offset > bytes.size() || *length > bytes.size() - *offset) {
-    return fail_at(place, "{} bytes from {} reach behind the buffer's {}", *length, *offset,
+    return fail_at(place, "{} bytes from byte {} on end beyond the buffer's {}", *length, *offset,
                    bytes.size());
   }
   stride = *own_stride;
@@ -273,7 +273,7 @@ Result<GltfFile::Numbers> GltfFile::read_accessor(std::uint64_t index,
                     (*count == 0 || (size <= bytes->size() - *offset &&
                                      *count - 1 <= (bytes->size() - *offset - size) / stride));
   if (!fits) {
-    return fail_at(place, "{} elements of {} bytes, one every {}, reach behind the view's {} bytes",
+    return fail_at(place, "{} elements of {} bytes, one every {}, end beyond the view's {} bytes",
                    *count, size, stride, bytes->size());
   }
   const Json flag = accessor.value("normalized", Json(false));

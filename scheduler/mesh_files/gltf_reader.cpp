@@ -93,7 +93,7 @@ class GltfParser {
       waiting->pop_back();
       // A tree by the standard; a loop would never end.
       if (placed.node < seen.size() && seen[placed.node]) {
-        return file_.fail_at(fmt::format("nodes[{}]", placed.node), "is below two nodes");
+        return file_.fail_at(fmt::format("nodes[{}]", placed.node), "is a child of two nodes");
       }
       if (placed.node < seen.size()) seen[placed.node] = true;
       if (Status status = visit(placed, *waiting); !status) return forward_error(status);
@@ -155,7 +155,7 @@ class GltfParser {
     if (Status status = add_nodes(**node, "children", world, waiting); !status) return status;
     if (!(*node)->contains("mesh")) return {};
     const auto number = gltf_index(**node, "mesh");
-    if (!number) return file_.fail_at(place, "'mesh' is no number of a mesh");
+    if (!number) return file_.fail_at(place, "'mesh' must be the number of a mesh");
     const auto mesh = file_.entry("meshes", *number);
     if (!mesh) return forward_error(mesh);
     const Json primitives = (*mesh)->value("primitives", Json::array());
@@ -215,7 +215,7 @@ class GltfParser {
                  const std::string& place) {
     if (!attributes.contains("TEXCOORD_0")) return {};
     const auto index = gltf_index(attributes, "TEXCOORD_0");
-    if (!index) return file_.fail_at(place, "TEXCOORD_0 is no number of an accessor");
+    if (!index) return file_.fail_at(place, "TEXCOORD_0 must be the number of an accessor");
     const auto uvs = file_.read_accessor(*index, 2);
     if (!uvs) return forward_error(uvs);
     if (uvs->count != corners.size()) {
@@ -236,14 +236,14 @@ class GltfParser {
       return order;
     }
     const auto index = gltf_index(primitive, "indices");
-    if (!index) return file_.fail_at(place, "'indices' is no number of an accessor");
+    if (!index) return file_.fail_at(place, "'indices' must be the number of an accessor");
     const auto indices = file_.read_accessor(*index, 1);
     if (!indices) return forward_error(indices);
     order.reserve(indices->count);
     for (const double corner : indices->values) {
       if (!(corner >= 0.0 && corner < static_cast<double>(corners)) ||
           corner != std::floor(corner)) {
-        return file_.fail_at(place, "index {} names none of {} vertices", corner, corners);
+        return file_.fail_at(place, "index {} is beyond the {} vertices", corner, corners);
       }
       order.push_back(static_cast<std::uint64_t>(corner));
     }
@@ -256,7 +256,7 @@ class GltfParser {
       return {};
     }
     const auto index = gltf_index(primitive, "material");
-    if (!index) return file_.fail_at(place, "'material' is no number of a material");
+    if (!index) return file_.fail_at(place, "'material' must be the number of a material");
     const auto material = file_.entry("materials", *index);
     if (!material) return forward_error(material);
     const Json name = (*material)->value("name", Json());

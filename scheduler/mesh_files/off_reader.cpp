@@ -54,7 +54,7 @@ class OffParser {
     }
     // The numbers may stand beside the word.
     if (trimmed(line_).empty() && !next_line())
-      return fail_here("the numbers of vertices are missing");
+      return fail_here("the numbers of vertices and faces are missing");
     const auto vertices = parse_number<std::uint32_t>(take_word(line_));
     const auto faces = parse_number<std::uint32_t>(take_word(line_));
     if (!vertices || !faces) return fail_here("expected the numbers of vertices and faces");

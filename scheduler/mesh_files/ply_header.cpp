@@ -114,7 +114,7 @@ Result<PlyHeader> take_ply_header(std::string_view& rest, const std::string& fil
   PlyHeader header;
   header.lines = 1;
   if (trimmed(take_line(rest)) != "ply") {
-    return fail(ErrorKind::kInput, "{}:1: expected 'ply'", file);
+    return fail(ErrorKind::kInput, "{}:1: expected 'ply' on a line of its own", file);
   }
   bool has_format = false;
   while (!rest.empty()) {

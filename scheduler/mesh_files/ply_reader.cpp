@@ -171,7 +171,8 @@ class PlyParser {
     const bool vertex_uvs = uv_[0] >= 0 && uv_[1] >= 0;
     for (const double index : indices) {
       if (!(index >= 0.0 && index < static_cast<double>(vertices)) || index != std::floor(index)) {
-        return builder_.fail_at(place, "names vertex {}, but {} stand above it", index, vertices);
+        return builder_.fail_at(place, "names vertex {}, but the file has {} (the first is 0)",
+                                index, vertices);
       }
       const auto position = static_cast<std::uint32_t>(index);
       corners.push_back({position, vertex_uvs ? position : PolygonCorner::kNone});

@@ -136,7 +136,7 @@ Result<Mesh> read_stl(const std::filesystem::path& path) {
   if (is_text(*bytes)) return TextParser(file).parse(without_byte_order_mark(*bytes));
   if (bytes->size() < kBinaryHeaderBytes) {
     return fail(ErrorKind::kInput,
-                "{}: {} bytes are no STL file: expected 'solid' or a header of {} bytes", file,
+                "{}: {} bytes are not an STL file: expected 'solid' or a header of {} bytes", file,
                 bytes->size(), kBinaryHeaderBytes);
   }
   return read_binary(*bytes, file);

@@ -210,16 +210,16 @@ bool RayScene::hides(const Eigen::Vector3d& point, double tolerance_m, int trans
   return false;
 }
 
-RayImage RayScene::trace(const TraceWishes& wishes) const {
+RayImage RayScene::trace(const TraceOptions& options) const {
   const PixelCamera& camera = scene_->camera;
   RayImage image{camera.width, camera.height, {}, {}, {}};
   const std::size_t pixels = image.index(0, camera.height);
   image.instance.resize(pixels);
-  if (wishes.depth) image.depth.resize(pixels);
-  if (wishes.normals) image.normals.resize(pixels);
-  const NormalShader shader(wishes.normals ? scene_->instances : std::vector<RayInstance>{});
+  if (options.depth) image.depth.resize(pixels);
+  if (options.normals) image.normals.resize(pixels);
+  const NormalShader shader(options.normals ? scene_->instances : std::vector<RayInstance>{});
   constexpr int kSide = RayPacket::kSide;
-  for_each_index((camera.height + kSide - 1) / kSide, wishes.threads, [&](int strip) {
+  for_each_index((camera.height + kSide - 1) / kSide, options.threads, [&](int strip) {
     RayPacket packet;
     for (int x = 0; x < camera.width; x += kSide) {
       packet.aim(camera, x, kSide * strip, 1, camera.width, camera.height);
@@ -230,8 +230,8 @@ RayImage RayScene::trace(const TraceWishes& wishes) const {
                                               kSide * strip + static_cast<int>(lane / kSide));
         const int hit = packet.hit(lane);
         image.instance[pixel] = hit;
-        if (wishes.depth) image.depth[pixel] = hit < 0 ? kNoDepth : packet.rays.ray.tfar[lane];
-        if (wishes.normals && hit >= 0) image.normals[pixel] = shader.normal(packet, lane);
+        if (options.depth) image.depth[pixel] = hit < 0 ? kNoDepth : packet.rays.ray.tfar[lane];
+        if (options.normals && hit >= 0) image.normals[pixel] = shader.normal(packet, lane);
       }
     }
   });

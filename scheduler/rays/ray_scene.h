@@ -55,7 +55,7 @@ struct RayImage {
   int height = 0;
   std::vector<std::int32_t> instance;         ///< index of an instance; -1: nothing
   std::vector<float> depth;                   ///< planar, metres; kNoDepth; empty: not asked for
-  std::vector<std::array<float, 3>> normals;  ///< see TraceWishes; empty: not asked for
+  std::vector<std::array<float, 3>> normals;  ///< see TraceOptions; empty: not asked for
 
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -63,7 +63,7 @@ struct RayImage {
   }
 };
 
-struct TraceWishes {
+struct TraceOptions {
   bool depth = false;
   /// Shading normals in the camera's frame, of unit length, on the side that the ray comes from; 0
   /// where it hits nothing.
@@ -109,7 +109,7 @@ class RayScene {
   bool hides(const Eigen::Vector3d& point, double tolerance_m, int transparent) const;
 
   /// The same pixels whatever the number of threads.
-  RayImage trace(const TraceWishes& wishes) const;
+  RayImage trace(const TraceOptions& options) const;
 
   /// Contains every pixel of the image that `image` gives to the instance and that is in `within`
   /// or near the instance. Not for one instance from several threads at once.

@@ -129,7 +129,7 @@ FrameDraft SceneExpander::Program::draft_frame(EvaluationContext& context) {
   add_lights(compiled_, world_from_camera, draft, context);
   set_world(compiled_.world, world_from_camera, materials_, draft, context);
   check_cut_outs(spec, context);
-  std::string beyond = part_beyond_numbers(spec);
+  std::string beyond = non_finite_part(spec);
   for (PlacedInstance& instance : draft.placed) {
     instance.spec.camera_from_object =
         relative_to_camera(world_from_camera, instance.world_from_object);

@@ -359,7 +359,7 @@ Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what
   }
 }
 
-std::string part_beyond_numbers(const FrameSpec& spec) {
+std::string non_finite_part(const FrameSpec& spec) {
   const auto finite = [](std::initializer_list<double> numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
   };

@@ -130,7 +130,7 @@ struct FrameSpec {
 
 /// The first part, instances aside, whose numbers are not all finite ("the camera"), or empty.
 /// Such a spec has no JSON.
-std::string part_beyond_numbers(const FrameSpec& spec);
+std::string non_finite_part(const FrameSpec& spec);
 
 /// The canonical JSON, which is hashed and sent to workers.
 std::string canonical_text(const FrameSpec& spec);

@@ -13,12 +13,12 @@ struct TwinTolerance {
 };
 
 struct TwinCheck {
-  bool wanted = true;  ///< false: rendered frames are believed
+  bool wanted = true;  ///< false: rendered frames are not compared
   TwinTolerance tolerance;
 };
 
 /// A pixel that differs is an edge pixel if each image has the other's id within one pixel of it:
-/// an outline that rounds another way. All others that differ are inside.
+/// an outline that was rounded the other way. All others that differ are inside.
 struct TwinTally {
   std::int64_t pixels = 0;  ///< compared; 0: no comparison was made
   std::int64_t inside_px = 0;

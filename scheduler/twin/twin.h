@@ -1,4 +1,4 @@
-// The twin: a frame's second, exact life in C++, traced from its frame spec without Blender.
+// The twin: a frame's exact geometry in C++, traced from its frame spec without Blender.
 #pragma once
 
 #include <cstdint>
@@ -74,7 +74,7 @@ class TwinTracer {
   };
   Result<std::shared_ptr<const RayMesh>> mesh(const std::string& sha256,
                                               const MeshBuffers& buffers);
-  /// Lets go of what was not used for longest.
+  /// Drops what was used least recently.
   void trim();
 
   int threads_;

@@ -17,10 +17,10 @@ struct TwinVerdict {
   std::string complaint;
 };
 
-/// Whether the twin sees an id a trifle beside a pixel's centre; Twin::grazes.
+/// Whether the twin sees an id very near a pixel's centre; Twin::grazes.
 using Grazes = std::function<bool(int row, int column, std::uint16_t id)>;
 
-/// Both images are of the spec's size. Without `grazes` nothing does.
+/// Both images are of the spec's size. Without `grazes`, no pixel is grazed.
 TwinVerdict compare_with_twin(const FrameSpec& spec, const Image<std::uint16_t>& rendered,
                               const Image<std::uint16_t>& twin, const TwinTolerance& tolerance,
                               const Grazes& grazes = {});

@@ -39,13 +39,13 @@ TEST(Keypoints, AreRefusedWithTheirNames) {
   EXPECT_THAT(complaint(set), HasSubstr("two keypoints are named 'head'"));
   set = two_points();
   set.skeleton[0][1] = "tail";
-  EXPECT_THAT(complaint(set), HasSubstr("'tail', which there is not"));
+  EXPECT_THAT(complaint(set), HasSubstr("'tail', which does not exist"));
   set = two_points();
   set.mirrored[0] = {"head", "head"};
   EXPECT_THAT(complaint(set), HasSubstr("joined to itself"));
   set = two_points();
   set.points[0].point_m.x() = std::nan("");
-  EXPECT_THAT(complaint(set), HasSubstr("'head' is not at a place"));
+  EXPECT_THAT(complaint(set), HasSubstr("'head' needs three finite coordinates"));
   set = two_points();
   set.points[0].name.clear();
   EXPECT_THAT(complaint(set), HasSubstr("needs a name"));

@@ -119,11 +119,11 @@ TEST_F(AssetVerb, KeypointsAreSetShownAndTakenAway) {
            {{"tip=0,0"}, "'tip=0,0' is not a keypoint: expected NAME=X,Y,Z"},
            {{"tip=0,0,0x"}, "is not a keypoint"},
            {{"a b=0,0,0"}, "is not a keypoint"},
-           {{"tip=0,0,nan"}, "'tip' is not at a place"},
+           {{"tip=0,0,nan"}, "'tip' needs three finite coordinates"},
            {{"tip=0,0,0", "tip=1,0,0"}, "two keypoints are named 'tip'"},
            {{"tip=0,0,0", "--inside", "tap"}, "did you mean 'tip'?"},
            {{"tip=0,0,0", "--line", "tip"}, "expected two keypoints, such as head-tip"},
-           {{"tip=0,0,0", "--line", "tip-tail"}, "'tail', which there is not"},
+           {{"tip=0,0,0", "--line", "tip-tail"}, "'tail', which does not exist"},
            {{"--line", "tip-heart"}, "give all of them again"}}) {
     const Outcome refused = with(arguments);
     EXPECT_EQ(refused.exit_code, 2) << complaint;

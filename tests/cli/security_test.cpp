@@ -157,7 +157,7 @@ TEST_F(SecurityTest, CountsAndGrids) {
       "objects: "
       "{o: {asset: gear, count: 1024}}}}\n",
       "bomb.yaml");
-  expect_refused(kStart + "camera: {distance_m: 1}\n", "stands twice");
+  expect_refused(kStart + "camera: {distance_m: 1}\n", "is given twice");
 }
 
 TEST_F(SecurityTest, MeshesThatClaimToBeHuge) {

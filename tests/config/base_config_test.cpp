@@ -97,7 +97,7 @@ TEST_F(BaseConfig, MustBeAFile) {
 
 TEST_F(BaseConfig, ThatIsItselfEnds) {
   write("top.yaml", "base: top.yaml\n");
-  EXPECT_THAT(error_of("base: top.yaml\n"), HasSubstr("more than 8 configs stand on each other"));
+  EXPECT_THAT(error_of("base: top.yaml\n"), HasSubstr("more than 8 configs in a chain"));
 }
 
 }  // namespace

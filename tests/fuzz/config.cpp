@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 /// A message is for the author of the config, and has no words that are not the author's.
 void check_error(const Error& error, std::string_view config) {
-  promise(error.kind == ErrorKind::kInput, "a wrong config is the author's to mend");
+  promise(error.kind == ErrorKind::kInput, "a wrong config is for its author to fix");
   for (const char* word : {"std::", "yaml-cpp", "bad conversion", "basic_string", "[json."}) {
     promise(error.message.find(word) == std::string::npos || config.find(word) != config.npos,
             "an error is for a config's author");

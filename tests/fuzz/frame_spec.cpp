@@ -13,7 +13,7 @@ void fuzz_frame_spec(std::string_view bytes) {
     promise(spec.error().kind == ErrorKind::kCorrupt, "a damaged spec is something that we wrote");
     return;
   }
-  promise(part_beyond_numbers(*spec).empty(), "JSON has finite numbers only");
+  promise(non_finite_part(*spec).empty(), "JSON has finite numbers only");
   const std::string text = canonical_text(*spec);
   const Json written = to_json(*spec);
   promise(canonical_json(written) == text, "the text of a spec is canonical JSON");

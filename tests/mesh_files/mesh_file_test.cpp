@@ -168,14 +168,14 @@ TEST_F(MeshFiles, GltfLoopsExtensionsAndRangesAreErrors) {
   std::string loop = gltf_text(example_cube());
   const std::string mesh_node = R"("mesh":0)";
   loop.replace(loop.find(mesh_node), mesh_node.size(), R"("mesh":0,"children":[0])");
-  expect_error("a.gltf", loop, "below two nodes");
+  expect_error("a.gltf", loop, "a child of two nodes");
   std::string draco = gltf_text(example_cube());
   draco.insert(1, R"("extensionsRequired":["KHR_draco_mesh_compression"],)");
   expect_error("a.gltf", draco, "KHR_draco_mesh_compression");
   std::string huge = gltf_text(example_cube());
   const std::string count = R"("count":36)";
   huge.replace(huge.find(count), count.size(), R"("count":9007199254740991)");
-  expect_error("a.gltf", huge, "reach behind");
+  expect_error("a.gltf", huge, "end beyond");
 }
 
 TEST_F(MeshFiles, EveryTruncationIsAnErrorOrAValidMesh) {
@@ -218,7 +218,7 @@ TEST_F(MeshFiles, PolygonsBeyondTheLimitAreErrors) {
 
 TEST_F(MeshFiles, SaysWhatItCannotRead) {
   expect_error("a.fbx", "Kaydara", "expected .obj, .ply, .stl, .off, .gltf or .glb");
-  expect_error("a.stl", "", "0 bytes are no STL file");
+  expect_error("a.stl", "", "0 bytes are not an STL file");
   expect_error("a.off", "", "empty");
   expect_error("a.ply", "plz\n", "expected 'ply'");
   expect_error("a.glb", "glTF", "version 2");
