@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 namespace seedframe {
 namespace {
 
@@ -109,14 +111,6 @@ std::vector<Candidate> find_candidates(const Mask& mask, const Boundary& boundar
   return candidates;
 }
 
-std::size_t find_root(std::vector<std::size_t>& parents, std::size_t part) {
-  while (parents[part] != part) {
-    parents[part] = parents[parents[part]];
-    part = parents[part];
-  }
-  return part;
-}
-
 }  // namespace
 
 // Kruskal's minimum spanning tree over the pairs of parts whose regions of nearest pixels meet.
@@ -127,15 +121,12 @@ std::vector<PartBridge> bridge_parts(const Mask& mask, const Boundary& boundary,
   if (parts < 2) return bridges;
   std::vector<Candidate> candidates = find_candidates(mask, boundary, part_of_ring);
   std::sort(candidates.begin(), candidates.end());
-  std::vector<std::size_t> parents(parts);
-  std::iota(parents.begin(), parents.end(), std::size_t{0});
+  boost::disjoint_sets_with_storage<> trees(parts);
   for (const Candidate& candidate : candidates) {
-    const std::size_t from =
-        find_root(parents, part_of_ring[boundary.ring_of_crack[candidate.from_crack]]);
-    const std::size_t to =
-        find_root(parents, part_of_ring[boundary.ring_of_crack[candidate.to_crack]]);
-    if (from == to) continue;
-    parents[to] = from;
+    const std::size_t from = part_of_ring[boundary.ring_of_crack[candidate.from_crack]];
+    const std::size_t to = part_of_ring[boundary.ring_of_crack[candidate.to_crack]];
+    if (trees.find_set(from) == trees.find_set(to)) continue;
+    trees.union_set(from, to);
     bridges.push_back({candidate.from_crack, candidate.to_crack});
   }
   assert(bridges.size() + 1 == parts);
