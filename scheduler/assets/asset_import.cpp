@@ -6,6 +6,7 @@
 #include "base/portable_math.h"
 #include "base/sha256.h"
 #include "base/utf8.h"
+#include "mesh/mesh_self_intersections.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;

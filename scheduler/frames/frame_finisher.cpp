@@ -11,7 +11,7 @@
 #include "image/pass_reader.h"
 #include "image/pixel_hash.h"
 #include "image/png_file.h"
-#include "twin/twin_check.h"
+#include "twin/twin_comparison.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;

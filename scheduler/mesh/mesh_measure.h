@@ -5,13 +5,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "base/error.h"
 #include "mesh/mesh.h"
 
 namespace seedframe {
-
-/// More pairs are not counted.
-inline constexpr std::size_t kMostSelfIntersections = 1'000'000;
 
 struct MeshMeasures {
   BoundingBox box;
@@ -32,9 +28,5 @@ struct MeshMeasures {
 
 /// The mesh must pass check_mesh.
 MeshMeasures measure_mesh(const Mesh& mesh);
-
-/// Pairs of triangles that meet elsewhere than in a common edge or vertex, up to
-/// kMostSelfIntersections; the mesh must be an oriented manifold.
-Result<std::size_t> count_self_intersections(const Mesh& mesh, const std::string& what);
 
 }  // namespace seedframe

@@ -9,7 +9,7 @@
 
 #include "campaign/prepared_campaign.h"
 #include "tests/mesh/example_meshes.h"
-#include "twin/twin_check.h"
+#include "twin/twin_comparison.h"
 
 namespace seedframe {
 namespace {

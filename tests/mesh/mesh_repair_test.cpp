@@ -7,6 +7,7 @@
 
 #include "mesh/mesh_buffer.h"
 #include "mesh/mesh_measure.h"
+#include "mesh/mesh_self_intersections.h"
 #include "tests/mesh/example_meshes.h"
 
 namespace seedframe {

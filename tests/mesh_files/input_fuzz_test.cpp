@@ -9,6 +9,7 @@
 #include "base/philox.h"
 #include "mesh/mesh_measure.h"
 #include "mesh/mesh_repair.h"
+#include "mesh/mesh_self_intersections.h"
 #include "mesh_files/draco_codec.h"
 #include "mesh_files/mesh_file.h"
 #include "tests/fixtures/scratch_folder.h"

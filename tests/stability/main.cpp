@@ -14,7 +14,7 @@
 #include "tests/stability/cases.h"
 #include "tests/stability/exact_hits.h"
 #include "twin/twin.h"
-#include "twin/twin_check.h"
+#include "twin/twin_comparison.h"
 
 namespace seedframe {
 namespace {

@@ -6,7 +6,7 @@
 #include "mesh/mesh_buffer.h"
 #include "tests/render/blender/real_blender_fixture.h"
 #include "twin/twin.h"
-#include "twin/twin_check.h"
+#include "twin/twin_comparison.h"
 
 namespace seedframe {
 namespace {

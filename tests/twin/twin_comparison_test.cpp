@@ -1,4 +1,4 @@
-#include "twin/twin_check.h"
+#include "twin/twin_comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
