@@ -73,15 +73,15 @@ Pose pose_of(const Affine& camera_from_object) {
   return pose;
 }
 
-std::int64_t silhouette_area_in(const AmodalLabel& amodal, const PixelBox& box) {
+std::int64_t silhouette_area_in(const AmodalLabel& amodal, const PixelRect& box) {
   const auto rle = rle_from_string(amodal.rle, amodal.box.width, amodal.box.height);
   std::int64_t area = 0;
   if (!rle) return area;
   for_each_stretch(*rle, [&](int column, int first, int end) {
     const int x = amodal.box.x + column;
-    if (x < box.x || x >= box.x + box.width) return;
-    area += std::max(0, std::min(amodal.box.y + end, box.y + box.height) -
-                            std::max(amodal.box.y + first, box.y));
+    if (x < box.x || x >= box.end_x()) return;
+    area += std::max(
+        0, std::min(amodal.box.y + end, box.end_y()) - std::max(amodal.box.y + first, box.y));
   });
   return area;
 }

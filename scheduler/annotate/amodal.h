@@ -12,7 +12,7 @@ void add_amodal_labels(FrameLabels& labels, const FrameSpec& spec, const Twin& t
                        const Image<std::uint16_t>& instance_ids);
 
 /// Pixels of the silhouette in a box of the image.
-std::int64_t silhouette_area_in(const AmodalLabel& amodal, const PixelBox& box);
+std::int64_t silhouette_area_in(const AmodalLabel& amodal, const PixelRect& box);
 
 /// The part of an affine map that is no shear, by polar decomposition.
 Pose pose_of(const Affine& camera_from_object);

@@ -29,7 +29,7 @@ Crack next_crack(const Mask& mask, const Crack& crack) {
   return {crack.row, crack.column, static_cast<Side>(turn(crack.side, 1))};
 }
 
-std::size_t position_in(const PixelBox& box, int row, int column) {
+std::size_t position_in(const PixelRect& box, int row, int column) {
   return static_cast<std::size_t>(row - box.y) * static_cast<std::size_t>(box.width) +
          static_cast<std::size_t>(column - box.x);
 }
@@ -68,12 +68,12 @@ std::size_t Boundary::top_crack(int row, int column) const {
 
 Boundary trace_boundary(const Mask& mask) {
   Boundary boundary;
-  const PixelBox& box = mask.box();
+  const PixelRect& box = mask.box();
   boundary.box = box;
   boundary.top_cracks.assign(
       static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height), -1);
-  for (int row = box.y; row < box.y + box.height; ++row) {
-    for (int column = box.x; column < box.x + box.width; ++column) {
+  for (int row = box.y; row < box.end_y(); ++row) {
+    for (int column = box.x; column < box.end_x(); ++column) {
       if (!mask.at(row, column) || mask.at(row - 1, column)) continue;
       if (boundary.top_cracks[position_in(box, row, column)] >= 0) continue;
       trace_ring(mask, row, column, boundary);

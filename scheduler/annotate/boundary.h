@@ -40,7 +40,7 @@ struct Boundary {
   /// Index of the top side of a pixel, which must be a crack.
   std::size_t top_crack(int row, int column) const;
 
-  PixelBox box;
+  PixelRect box;
   std::vector<std::ptrdiff_t> top_cracks;  ///< for each pixel of the box; -1: no crack
 };
 

@@ -17,7 +17,7 @@ struct GridPoint {
   int y = 0;
 };
 
-GridPoint grid_point(const Vertex& vertex, const PixelBox& box) {
+GridPoint grid_point(const Vertex& vertex, const PixelRect& box) {
   const auto scaled = [](std::int32_t hundredths, int begin) {
     return (kFiner * (hundredths - begin * kVerticesPerPixel) + kVerticesPerPixel / 2) /
            kVerticesPerPixel;
@@ -49,7 +49,7 @@ void append_edge(const GridPoint& from, const GridPoint& to, std::vector<GridPoi
 }
 
 /// For every pixel of the box, column by column, whether its column changes there.
-std::vector<std::uint8_t> changes_of(const Polygon& polygon, const PixelBox& box) {
+std::vector<std::uint8_t> changes_of(const Polygon& polygon, const PixelRect& box) {
   std::vector<GridPoint> outline;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     append_edge(grid_point(polygon[i], box), grid_point(polygon[(i + 1) % polygon.size()], box),
@@ -75,7 +75,7 @@ std::vector<std::uint8_t> changes_of(const Polygon& polygon, const PixelBox& box
 
 }  // namespace
 
-std::vector<std::uint8_t> coco_fill(const std::vector<Polygon>& polygons, const PixelBox& box) {
+std::vector<std::uint8_t> coco_fill(const std::vector<Polygon>& polygons, const PixelRect& box) {
   const auto width = static_cast<std::size_t>(box.width);
   const auto height = static_cast<std::size_t>(box.height);
   std::vector<std::uint8_t> covered(width * height, 0);

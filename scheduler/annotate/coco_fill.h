@@ -12,6 +12,6 @@ namespace seedframe {
 
 /// The pixels of `box` that any of the polygons covers, 0 or 1, row by row. No vertex may be
 /// outside the box.
-std::vector<std::uint8_t> coco_fill(const std::vector<Polygon>& polygons, const PixelBox& box);
+std::vector<std::uint8_t> coco_fill(const std::vector<Polygon>& polygons, const PixelRect& box);
 
 }  // namespace seedframe

@@ -24,8 +24,8 @@ int end_of_run(const std::uint16_t* row, int begin, int width) {
 
 /// Adds the pixels [begin, end) of one row.
 void add_run(InstanceExtent& extent, int row, int begin, int end) {
-  PixelBox& box = extent.box;
-  const int right = std::max(box.x + box.width, end);
+  PixelRect& box = extent.box;
+  const int right = std::max(box.end_x(), end);
   box.x = std::min(box.x, begin);
   box.width = right - box.x;
   box.height = row + 1 - box.y;

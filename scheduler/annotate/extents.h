@@ -12,7 +12,7 @@ namespace seedframe {
 struct InstanceExtent {
   int id = 0;
   std::int64_t area_px = 0;
-  PixelBox box;
+  PixelRect box;
   int first_row = 0;     ///< of the first pixel in reading order
   int first_column = 0;  ///< of the same pixel
 };

@@ -11,6 +11,7 @@
 
 #include "base/canonical_json.h"
 #include "base/error.h"
+#include "base/pixel_rect.h"
 #include "image/image.h"
 #include "rays/ray_scene.h"
 #include "spec/frame_spec.h"
@@ -21,15 +22,6 @@ inline constexpr int kLabelsVersion = 3;
 
 /// An id image has 16 bits.
 constexpr int kLargestImageId = std::numeric_limits<std::uint16_t>::max();
-
-/// Tight box of a mask; x0 = smallest column, width = largest - smallest + 1. Pixels.
-struct PixelBox {
-  int x = 0;
-  int y = 0;
-  int width = 0;
-  int height = 0;
-  bool operator==(const PixelBox&) const = default;
-};
 
 /// Where an instance is in the camera's frame (x right, y up, z towards the viewer):
 /// point = rotation · diag(scale) · point of the object + translation. A shear, which only parents
@@ -73,7 +65,7 @@ struct InstanceLabel {
   std::string name;  ///< "<object>/<copy>"
   std::string asset;
   std::int64_t area_px = 0;           ///< visible pixels; 0: wholly hidden or out of view
-  PixelBox box;                       ///< of the visible pixels; all 0 when there are none
+  PixelRect box;                      ///< tight, of the visible pixels; all 0 when there are none
   std::optional<AmodalLabel> amodal;  ///< none: the frame has no twin
   std::vector<KeypointLabel> keypoints;
 

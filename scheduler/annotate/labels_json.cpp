@@ -34,9 +34,9 @@ Result<std::int64_t> integer_field(const Json& object, const char* key, std::int
   return *number;
 }
 
-Result<PixelBox> box_field(const Json& object, const std::string& what) {
+Result<PixelRect> box_field(const Json& object, const std::string& what) {
   const auto found = object.find("box");
-  PixelBox box;
+  PixelRect box;
   const std::array<int*, 4> numbers = {&box.x, &box.y, &box.width, &box.height};
   bool valid = found != object.end() && found->is_array() && found->size() == numbers.size();
   for (std::size_t i = 0; valid && i < numbers.size(); ++i) {
@@ -53,9 +53,9 @@ Result<PixelBox> box_field(const Json& object, const std::string& what) {
 
 /// The area and the box of one instance must be possible together, and inside the image.
 Status check_extent(const InstanceLabel& label, const FrameLabels& frame, const std::string& what) {
-  const PixelBox& box = label.box;
+  const PixelRect& box = label.box;
   if (label.area_px == 0) {
-    if (box == PixelBox{}) return {};
+    if (box == PixelRect{}) return {};
     return fail(ErrorKind::kCorrupt, "{}: no visible pixels, but a box that is not all 0", what);
   }
   // Subtractions, since a sum of two arbitrary integers may overflow.
@@ -64,7 +64,7 @@ Status check_extent(const InstanceLabel& label, const FrameLabels& frame, const 
     return fail(ErrorKind::kCorrupt, "{}: the box [{}, {}, {}, {}] is not inside the {}x{} image",
                 what, box.x, box.y, box.width, box.height, frame.width, frame.height);
   }
-  if (label.area_px > std::int64_t{box.width} * box.height) {
+  if (label.area_px > box.area()) {
     return fail(ErrorKind::kCorrupt, "{}: {} visible pixels do not fit into a box of {}x{}", what,
                 label.area_px, box.width, box.height);
   }
@@ -272,7 +272,7 @@ Status check_version(const Json& json, const std::string& what) {
 Json to_json(const FrameLabels& labels) {
   Json instances = Json::array();
   for (const InstanceLabel& label : labels.instances) {
-    const PixelBox& box = label.box;
+    const PixelRect& box = label.box;
     Json instance = {{"id", label.id},           {"category", label.category},
                      {"name", label.name},       {"asset", label.asset},
                      {"area_px", label.area_px}, {"box", {box.x, box.y, box.width, box.height}}};

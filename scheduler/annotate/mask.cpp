@@ -8,17 +8,17 @@
 
 namespace seedframe {
 
-Mask::Mask(const Image<std::uint16_t>& instance_ids, int id, const PixelBox& box)
+Mask::Mask(const Image<std::uint16_t>& instance_ids, int id, const PixelRect& box)
     : ids_(&instance_ids), id_(static_cast<std::uint16_t>(id)), box_(box) {
   assert(id > 0 && id <= 65535);
-  assert(box.x >= 0 && box.y >= 0 && box.x + box.width <= instance_ids.width &&
-         box.y + box.height <= instance_ids.height);
+  assert(box.x >= 0 && box.y >= 0 && box.end_x() <= instance_ids.width &&
+         box.end_y() <= instance_ids.height);
 }
 
 std::int64_t Mask::area_px() const {
   std::int64_t area = 0;
-  for (int row = box_.y; row < box_.y + box_.height; ++row) {
-    for (int column = box_.x; column < box_.x + box_.width; ++column) area += at(row, column);
+  for (int row = box_.y; row < box_.end_y(); ++row) {
+    for (int column = box_.x; column < box_.end_x(); ++column) area += at(row, column);
   }
   return area;
 }
@@ -53,8 +53,8 @@ void Mask::changes_by_column(std::vector<Change>& changes) const {
   std::vector<std::uint8_t> changed(padded, 0);
   std::vector<Change> by_row;
   std::vector<std::size_t> next(width + 1, 0);  // first counts a column behind, then positions
-  for (int row = box_.y; row <= box_.y + box_.height; ++row) {
-    if (row < box_.y + box_.height) {
+  for (int row = box_.y; row <= box_.end_y(); ++row) {
+    if (row < box_.end_y()) {
       const std::uint16_t* ids = &ids_->at(row, box_.x);
       for (std::size_t i = 0; i < width; i += kLanes) {
         Lanes<std::uint16_t> id_of{};  // what is behind the box's width is of no instance

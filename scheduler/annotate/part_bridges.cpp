@@ -28,10 +28,7 @@ class NearestCracks {
   }
 
   std::ptrdiff_t at(int row, int column) const {
-    if (row < box_.y || row >= box_.y + box_.height || column < box_.x ||
-        column >= box_.x + box_.width) {
-      return kNobody;
-    }
+    if (!box_.contains(column, row)) return kNobody;
     return nearest_[position({row, column})];
   }
 
@@ -59,9 +56,9 @@ class NearestCracks {
     for (const Pixel& pixel : front) {
       const std::ptrdiff_t owner = nearest_[position(pixel)];
       for (int row = std::max(pixel.row - 1, box_.y);
-           row <= std::min(pixel.row + 1, box_.y + box_.height - 1); ++row) {
+           row <= std::min(pixel.row + 1, box_.end_y() - 1); ++row) {
         for (int column = std::max(pixel.column - 1, box_.x);
-             column <= std::min(pixel.column + 1, box_.x + box_.width - 1); ++column) {
+             column <= std::min(pixel.column + 1, box_.end_x() - 1); ++column) {
           if (!mask.at(row, column)) claim({row, column}, owner, next);
         }
       }
@@ -69,7 +66,7 @@ class NearestCracks {
     return next;
   }
 
-  PixelBox box_;
+  PixelRect box_;
   std::vector<std::ptrdiff_t> nearest_;
 };
 
@@ -87,12 +84,12 @@ struct Candidate {
 std::vector<Candidate> find_candidates(const Mask& mask, const Boundary& boundary,
                                        const std::vector<std::size_t>& part_of_ring) {
   const NearestCracks nearest(mask, boundary);
-  const PixelBox& box = mask.box();
+  const PixelRect& box = mask.box();
   std::vector<Candidate> candidates;
   const auto part = [&](std::size_t crack) { return part_of_ring[boundary.ring_of_crack[crack]]; };
   constexpr std::array<std::array<int, 2>, 4> kNeighbours = {{{0, 1}, {1, -1}, {1, 0}, {1, 1}}};
-  for (int row = box.y; row < box.y + box.height; ++row) {
-    for (int column = box.x; column < box.x + box.width; ++column) {
+  for (int row = box.y; row < box.end_y(); ++row) {
+    for (int column = box.x; column < box.end_x(); ++column) {
       const std::ptrdiff_t here = nearest.at(row, column);
       if (here == kNobody) continue;
       for (const auto& [down, right] : kNeighbours) {
@@ -143,7 +140,7 @@ struct PartSize {
 std::vector<PartSize> part_sizes(const Boundary& boundary,
                                  const std::vector<std::size_t>& part_of_ring, std::size_t parts) {
   std::vector<PartSize> sizes(parts);
-  const PixelBox& box = boundary.box;
+  const PixelRect& box = boundary.box;
   for (std::size_t i = 0; i < boundary.cracks.size(); ++i) {
     const Crack& crack = boundary.cracks[i];
     PartSize& size = sizes[part_of_ring[boundary.ring_of_crack[i]]];
@@ -151,8 +148,8 @@ std::vector<PartSize> part_sizes(const Boundary& boundary,
     if (crack.side == Side::kBottom) size.area_px += crack.row + 1;
     if (crack.side == Side::kTop) size.area_px -= crack.row;
     const std::array<bool, 4> reaches = {crack.column == box.x, crack.row == box.y,
-                                         crack.column == box.x + box.width - 1,
-                                         crack.row == box.y + box.height - 1};
+                                         crack.column == box.end_x() - 1,
+                                         crack.row == box.end_y() - 1};
     for (std::size_t k = 0; k < reaches.size(); ++k) {
       size.reaches[k] = size.reaches[k] || reaches[k];
     }

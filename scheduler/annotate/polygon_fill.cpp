@@ -11,14 +11,14 @@ namespace {
 constexpr std::int32_t kHalfPixel = kVerticesPerPixel / 2;
 
 /// Where a polygon's edges cross the height of each row's centres, sorted.
-std::vector<std::vector<double>> crossings(const Polygon& polygon, const PixelBox& box) {
+std::vector<std::vector<double>> crossings(const Polygon& polygon, const PixelRect& box) {
   std::vector<std::vector<double>> rows(static_cast<std::size_t>(box.height));
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vertex& from = polygon[i];
     const Vertex& to = polygon[i + 1 < polygon.size() ? i + 1 : 0];
     const auto [low, high] = std::minmax({from.y, to.y});
     const int first = std::max((low + kHalfPixel - 1) / kVerticesPerPixel, box.y);
-    const int last = std::min(high / kVerticesPerPixel, box.y + box.height - 1);
+    const int last = std::min(high / kVerticesPerPixel, box.end_y() - 1);
     for (int row = first; row <= last; ++row) {
       const std::int32_t y = row * kVerticesPerPixel + kHalfPixel;
       if (y < low || y >= high) continue;  // a vertex at this height counts once
@@ -32,7 +32,8 @@ std::vector<std::vector<double>> crossings(const Polygon& polygon, const PixelBo
 
 }  // namespace
 
-std::vector<std::uint8_t> fill_polygons(const std::vector<Polygon>& polygons, const PixelBox& box) {
+std::vector<std::uint8_t> fill_polygons(const std::vector<Polygon>& polygons,
+                                        const PixelRect& box) {
   std::vector<std::uint8_t> covered(
       static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height), 0);
   for (const Polygon& polygon : polygons) {
@@ -52,12 +53,12 @@ std::vector<std::uint8_t> fill_polygons(const std::vector<Polygon>& polygons, co
 }
 
 double polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask, FillRule rule) {
-  const PixelBox& box = mask.box();
+  const PixelRect& box = mask.box();
   for (const Polygon& polygon : polygons) {
     for (const Vertex& vertex : polygon) {
       if (vertex.x < box.x * kVerticesPerPixel || vertex.y < box.y * kVerticesPerPixel ||
-          vertex.x > (box.x + box.width) * kVerticesPerPixel ||
-          vertex.y > (box.y + box.height) * kVerticesPerPixel) {
+          vertex.x > box.end_x() * kVerticesPerPixel ||
+          vertex.y > box.end_y() * kVerticesPerPixel) {
         return 0.0;
       }
     }
@@ -67,8 +68,8 @@ double polygon_iou(const std::vector<Polygon>& polygons, const Mask& mask, FillR
   std::int64_t both = 0;
   std::int64_t either = 0;
   auto pixel = covered.begin();
-  for (int row = box.y; row < box.y + box.height; ++row) {
-    for (int column = box.x; column < box.x + box.width; ++column, ++pixel) {
+  for (int row = box.y; row < box.end_y(); ++row) {
+    for (int column = box.x; column < box.end_x(); ++column, ++pixel) {
       const bool inside = mask.at(row, column);
       both += inside && *pixel != 0;
       either += inside || *pixel != 0;

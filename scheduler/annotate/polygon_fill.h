@@ -11,7 +11,7 @@
 namespace seedframe {
 
 /// The pixels of `box` that any of the polygons covers, 0 or 1, row by row.
-std::vector<std::uint8_t> fill_polygons(const std::vector<Polygon>& polygons, const PixelBox& box);
+std::vector<std::uint8_t> fill_polygons(const std::vector<Polygon>& polygons, const PixelRect& box);
 
 enum class FillRule {
   kCentres,  ///< fill_polygons

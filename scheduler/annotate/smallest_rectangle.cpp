@@ -18,12 +18,12 @@ using Point = Kernel::Point_2;
 
 /// Corners of the first and the last pixel of every row.
 std::vector<Point> outermost_corners(const Mask& mask) {
-  const PixelBox& box = mask.box();
+  const PixelRect& box = mask.box();
   std::vector<Point> corners;
   corners.reserve(static_cast<std::size_t>(box.height) * 4);
-  for (int row = box.y; row < box.y + box.height; ++row) {
+  for (int row = box.y; row < box.end_y(); ++row) {
     int first = box.x;
-    int last = box.x + box.width - 1;
+    int last = box.end_x() - 1;
     while (first <= last && !mask.at(row, first)) ++first;
     while (last >= first && !mask.at(row, last)) --last;
     if (first > last) continue;

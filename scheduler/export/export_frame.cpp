@@ -23,9 +23,7 @@ Result<ExportInstance> whole_instance(const CommittedFrame& frame, const LoadedF
   const Image<std::uint16_t>& ids = loaded.instance_ids;
   auto image = std::make_shared<Image<std::uint16_t>>(ids.width, ids.height);
   const std::optional<Rle> rle = rle_from_string(label.amodal->rle, rect.width, rect.height);
-  PixelBox box{ids.width, ids.height, 0, 0};
-  int right = 0;
-  int bottom = 0;
+  PixelRect box;
   std::int64_t area = 0;
   for_each_stretch(*rle, [&](int stretch_column, int first, int end) {
     const int column = rect.x + stretch_column;
@@ -34,12 +32,8 @@ Result<ExportInstance> whole_instance(const CommittedFrame& frame, const LoadedF
     if (column < 0 || column >= ids.width || top >= below) return;
     for (int row = top; row < below; ++row) image->at(row, column) = 1;
     area += below - top;
-    box = {std::min(box.x, column), std::min(box.y, top), 0, 0};
-    right = std::max(right, column + 1);
-    bottom = std::max(bottom, below);
+    box = union_of(box, {column, top, 1, below - top});
   });
-  box.width = right - box.x;
-  box.height = bottom - box.y;
   const Mask mask(*image, 1, box);
   return ExportInstance{&label, mask, area, std::move(image)};
 }

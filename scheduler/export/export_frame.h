@@ -18,7 +18,7 @@ struct ExportInstance {
   const InstanceLabel* label = nullptr;
   Mask mask;                 ///< of the visible pixels, or of the silhouette inside the image
   std::int64_t area_px = 0;  ///< of the mask
-  const PixelBox& box() const { return mask.box(); }
+  const PixelRect& box() const { return mask.box(); }
 
   /// Holds the silhouette that the mask looks at; none: it looks at the frame's instance ids.
   std::shared_ptr<const Image<std::uint16_t>> silhouette;

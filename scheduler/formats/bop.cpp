@@ -52,9 +52,9 @@ ScaledDepth scaled_depth(const Image<float>& depth_m) {
 
 Image<std::uint8_t> mask_image(const Mask& mask) {
   Image<std::uint8_t> image(mask.image_width(), mask.image_height());
-  const PixelBox& box = mask.box();
-  for (int row = box.y; row < box.y + box.height; ++row) {
-    for (int column = box.x; column < box.x + box.width; ++column) {
+  const PixelRect& box = mask.box();
+  for (int row = box.y; row < box.end_y(); ++row) {
+    for (int column = box.x; column < box.end_x(); ++column) {
       if (mask.at(row, column)) image.at(row, column) = 255;
     }
   }
@@ -62,7 +62,7 @@ Image<std::uint8_t> mask_image(const Mask& mask) {
 }
 
 /// As the toolkit's calc_2d_bbox has it: largest minus smallest.
-Json toolkit_box(int x, int y, int width, int height) { return {x, y, width - 1, height - 1}; }
+Json toolkit_box(const PixelRect& box) { return {box.x, box.y, box.width - 1, box.height - 1}; }
 
 class Bop : public ExportFormat {
  public:
@@ -260,17 +260,15 @@ class Bop : public ExportFormat {
     if (!depth.units.values.empty()) {
       const auto whole = whole_instance(frame.frame, frame.loaded, label);
       if (!whole) return forward_error(whole);
-      const PixelBox& box = whole->box();
-      for (int row = box.y; row < box.y + box.height; ++row) {
-        for (int column = box.x; column < box.x + box.width; ++column) {
+      const PixelRect& box = whole->box();
+      for (int row = box.y; row < box.end_y(); ++row) {
+        for (int column = box.x; column < box.end_x(); ++column) {
           valid += whole->mask.at(row, column) && depth.units.at(row, column) != 0;
         }
       }
     }
-    const PixelRect& all = label.amodal->box;
-    const PixelBox& seen = label.box;
-    return Json{{"bbox_obj", toolkit_box(all.x, all.y, all.width, all.height)},
-                {"bbox_visib", toolkit_box(seen.x, seen.y, seen.width, seen.height)},
+    return Json{{"bbox_obj", toolkit_box(label.amodal->box)},
+                {"bbox_visib", toolkit_box(label.box)},
                 {"px_count_all", label.amodal->area_px},
                 {"px_count_valid", valid},
                 {"px_count_visib", label.area_px},
@@ -286,7 +284,7 @@ class Bop : public ExportFormat {
   }
 
   static std::string coco_text(const ExportFrame& frame, const InstanceLabel& label, int object) {
-    const PixelBox& box = label.box;
+    const PixelRect& box = label.box;
     const Mask mask(frame.loaded.instance_ids, label.id, box);
     return fmt::format(
         R"({{"area":{},"bbox":[{},{},{},{}],"category_id":{},"id":{},"ignore":false,"image_id":{},"iscrowd":0,"segmentation":{}}})",

@@ -15,7 +15,7 @@ std::string json_text(std::string_view text) {
   return out;
 }
 
-std::string box_text(const PixelBox& box) {
+std::string box_text(const PixelRect& box) {
   return fmt::format("[{},{},{},{}]", box.x, box.y, box.width, box.height);
 }
 
@@ -95,7 +95,7 @@ Json coco_categories(const Dataset& dataset) {
 
 std::string coco_difference(const Json& annotation, const ExportFrame& frame,
                             const ExportInstance& instance) {
-  const PixelBox& box = instance.box();
+  const PixelRect& box = instance.box();
   const std::pair<const char*, Json> expected[] = {
       {"id", coco_annotation_id(frame.frame.index, instance.label->id)},
       {"image_id", coco_image_id(frame.frame.index)},

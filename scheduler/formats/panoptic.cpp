@@ -86,7 +86,7 @@ class CocoPanoptic : public ExportFormat {
   static std::string entry(const ExportFrame& frame) {
     Json segments = Json::array();
     for (const ExportInstance& instance : frame.instances) {
-      const PixelBox& box = instance.box();
+      const PixelRect& box = instance.box();
       segments.push_back({{"id", instance.label->id},
                           {"category_id", instance.label->category},
                           {"area", instance.area_px},
@@ -102,9 +102,9 @@ class CocoPanoptic : public ExportFormat {
     const Image<std::uint16_t>& ids = frame.loaded.instance_ids;
     Image<std::uint8_t> rgb(ids.width, ids.height, 3);
     for (const ExportInstance& instance : frame.instances) {
-      const PixelBox& box = instance.box();
-      for (int row = box.y; row < box.y + box.height; ++row) {
-        for (int column = box.x; column < box.x + box.width; ++column) {
+      const PixelRect& box = instance.box();
+      for (int row = box.y; row < box.end_y(); ++row) {
+        for (int column = box.x; column < box.end_x(); ++column) {
           if (!instance.mask.at(row, column)) continue;
           rgb.at(row, column, 0) = static_cast<std::uint8_t>(instance.label->id & 0xff);
           rgb.at(row, column, 1) = static_cast<std::uint8_t>(instance.label->id >> 8);

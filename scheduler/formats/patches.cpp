@@ -74,7 +74,7 @@ class Patches : public ExportFormat {
   }
 
   Image<std::uint8_t> patch(const ExportFrame& frame, const ExportInstance& instance) const {
-    const PixelBox& box = instance.box();
+    const PixelRect& box = instance.box();
     Image<std::uint8_t> rectangle =
         cropped(*frame.loaded.image, box.x, box.y, box.width, box.height);
     if (options_.patch_size == 0) return rectangle;

@@ -43,7 +43,7 @@ std::size_t tenth(double share) {
   return std::min(static_cast<std::size_t>(share * static_cast<double>(kTenths)), kTenths - 1);
 }
 
-std::size_t cell(const PixelBox& box, const FrameLabels& frame) {
+std::size_t cell(const PixelRect& box, const FrameLabels& frame) {
   const auto along = [](int begin, int length, int side) {
     return static_cast<std::size_t>((2 * std::int64_t{begin} + length) * std::int64_t{kGrid} /
                                     (2 * std::int64_t{side}));

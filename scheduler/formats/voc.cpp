@@ -76,8 +76,8 @@ std::string xml_text(const Dataset& dataset, const ExportFrame& frame) {
     pugi::xml_node box = object.append_child("bndbox");
     add_number(box, "xmin", instance.box().x + 1);
     add_number(box, "ymin", instance.box().y + 1);
-    add_number(box, "xmax", instance.box().x + instance.box().width);
-    add_number(box, "ymax", instance.box().y + instance.box().height);
+    add_number(box, "xmax", instance.box().end_x());
+    add_number(box, "ymax", instance.box().end_y());
   }
   std::ostringstream out;
   document.save(out, "  ", pugi::format_indent | pugi::format_no_declaration, pugi::encoding_utf8);
@@ -175,9 +175,9 @@ class Voc : public ExportFormat {
       const ExportInstance& instance = frame.instances[i];
       const auto index = static_cast<std::uint8_t>(
           objects ? i + 1 : static_cast<std::size_t>(instance.label->category));
-      const PixelBox& box = instance.box();
-      for (int row = box.y; row < box.y + box.height; ++row) {
-        for (int column = box.x; column < box.x + box.width; ++column) {
+      const PixelRect& box = instance.box();
+      for (int row = box.y; row < box.end_y(); ++row) {
+        for (int column = box.x; column < box.end_x(); ++column) {
           if (instance.mask.at(row, column)) image.at(row, column) = index;
         }
       }
@@ -206,15 +206,15 @@ class Voc : public ExportFormat {
     std::vector<std::string> found;
     pugi::xml_node object = document.child("annotation").child("object");
     for (const ExportInstance& instance : frame.instances) {
-      const PixelBox& box = instance.box();
+      const PixelRect& box = instance.box();
       const pugi::xml_node said = object.child("bndbox");
       const auto category = static_cast<std::size_t>(instance.label->category) - 1;
       const Flags flags = flags_of(instance);
       if (object.child("name").text().get() != dataset_.categories[category] ||
           said.child("xmin").text().as_int() != box.x + 1 ||
           said.child("ymin").text().as_int() != box.y + 1 ||
-          said.child("xmax").text().as_int() != box.x + box.width ||
-          said.child("ymax").text().as_int() != box.y + box.height ||
+          said.child("xmax").text().as_int() != box.end_x() ||
+          said.child("ymax").text().as_int() != box.end_y() ||
           object.child("truncated").text().as_bool() != flags.truncated ||
           object.child("occluded").text().as_bool() != flags.occluded) {
         found.push_back(instance.label->name + ": its object in the XML is another");

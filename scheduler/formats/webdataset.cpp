@@ -95,10 +95,10 @@ class WebDataset : public ExportFormat {
     const Image<std::uint16_t>& ids = frame.loaded.instance_ids;
     Image<std::uint16_t> out(ids.width, ids.height);
     for (const ExportInstance& instance : frame.instances) {
-      const PixelBox& box = instance.label->box;
+      const PixelRect& box = instance.label->box;
       const auto id = static_cast<std::uint16_t>(instance.label->id);
-      for (int row = box.y; row < box.y + box.height; ++row) {
-        for (int column = box.x; column < box.x + box.width; ++column) {
+      for (int row = box.y; row < box.end_y(); ++row) {
+        for (int column = box.x; column < box.end_x(); ++column) {
           if (ids.at(row, column) == id) out.at(row, column) = id;
         }
       }

@@ -25,7 +25,7 @@ void append_coordinate(std::string& row, double pixels, int side) {
   fmt::format_to(std::back_inserter(row), " {:.8f}", std::clamp(pixels / side, 0.0, 1.0));
 }
 
-void append_box(std::string& row, const PixelBox& box, const FrameLabels& frame) {
+void append_box(std::string& row, const PixelRect& box, const FrameLabels& frame) {
   append_coordinate(row, box.x + box.width / 2.0, frame.width);
   append_coordinate(row, box.y + box.height / 2.0, frame.height);
   append_coordinate(row, box.width, frame.width);
@@ -37,7 +37,7 @@ std::int64_t count_duplicates(const ExportFrame& frame) {
   std::set<std::tuple<int, int, int, int, int>> seen;
   std::int64_t duplicates = 0;
   for (const ExportInstance& instance : frame.instances) {
-    const PixelBox& box = instance.box();
+    const PixelRect& box = instance.box();
     duplicates +=
         !seen.emplace(instance.label->category, box.x, box.y, box.width, box.height).second;
   }

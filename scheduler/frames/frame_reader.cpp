@@ -30,7 +30,7 @@ Status check_label(const CommittedFrame& frame, const InstanceLabel& label,
     return complain(fmt::format("{} pixels", label.area_px), fmt::format("{}", pixels.area_px));
   }
   if (label.box != pixels.box) {
-    const auto text = [](const PixelBox& box) {
+    const auto text = [](const PixelRect& box) {
       return fmt::format("[{}, {}, {}, {}]", box.x, box.y, box.width, box.height);
     };
     return complain("the box " + text(label.box), text(pixels.box));

@@ -104,13 +104,6 @@ void for_each_index(int count, int threads, const Body& body) {
 
 }  // namespace
 
-PixelRect union_of(const PixelRect& a, const PixelRect& b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  return rect_of(std::min(a.x, b.x), std::max(a.x + a.width, b.x + b.width), std::min(a.y, b.y),
-                 std::max(a.y + a.height, b.y + b.height));
-}
-
 PixelRect enlarged_canvas(const PixelCamera& camera) {
   return {-camera.width, -camera.height, 3 * camera.width, 3 * camera.height};
 }
@@ -272,9 +265,8 @@ Silhouette tight_silhouette(const PixelRect& rect, const std::vector<std::uint8_
   }
   const PixelRect canvas = enlarged_canvas(camera);
   const PixelRect& box = silhouette.box;
-  silhouette.complete = box.x > canvas.x && box.y > canvas.y &&
-                        box.x + box.width < canvas.x + canvas.width &&
-                        box.y + box.height < canvas.y + canvas.height;
+  silhouette.complete = box.x > canvas.x && box.y > canvas.y && box.end_x() < canvas.end_x() &&
+                        box.end_y() < canvas.end_y();
   return silhouette;
 }
 
@@ -291,8 +283,8 @@ Silhouette RayScene::silhouette(std::size_t index, const RayImage& image,
   std::vector<std::uint8_t> mask(static_cast<std::size_t>(rect.area()), 0);
   const RTCScene alone = scene_->only(index);
   constexpr int kSide = RayPacket::kSide;
-  const int right = rect.x + rect.width;
-  const int bottom = rect.y + rect.height;
+  const int right = rect.end_x();
+  const int bottom = rect.end_y();
   RayPacket packet;
   for (int y = rect.y; y < bottom; y += kSide) {
     for (int x = rect.x; x < right; x += kSide) {
@@ -332,8 +324,8 @@ PixelCounts RayScene::count(std::size_t index, std::size_t most_rays) const {
       std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(rect.area()) /
                                                        static_cast<double>(most_rays)))));
   const double weight = static_cast<double>(step) * step;
-  const int right = rect.x + rect.width;
-  const int bottom = rect.y + rect.height;
+  const int right = rect.end_x();
+  const int bottom = rect.end_y();
   const int stride = RayPacket::kSide * step;
   RayPacket own, first;
   for (int y = rect.y + (step - 1) / 2; y < bottom; y += stride) {

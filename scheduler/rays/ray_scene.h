@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/pixel_rect.h"
 #include "rays/ray_mesh.h"
 
 namespace seedframe {
@@ -21,21 +22,6 @@ struct PixelCamera {
   double clip_start_m = 0.0;
   double clip_end_m = 0.0;
 };
-
-/// Columns [x, x + width) of rows [y, y + height); may reach beyond the image.
-struct PixelRect {
-  int x = 0;
-  int y = 0;
-  int width = 0;
-  int height = 0;
-
-  bool empty() const { return width <= 0 || height <= 0; }
-  std::int64_t area() const { return std::int64_t{width} * height; }
-  bool operator==(const PixelRect&) const = default;
-};
-
-/// The smallest rectangle that holds both; an empty one holds nothing.
-PixelRect union_of(const PixelRect& a, const PixelRect& b);
 
 /// The image and as much again on every side: where silhouettes are looked for.
 PixelRect enlarged_canvas(const PixelCamera& camera);

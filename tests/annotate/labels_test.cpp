@@ -53,12 +53,12 @@ TEST(MakeLabels, MeasuresEveryInstanceInTheOrderOfTheSpec) {
   EXPECT_EQ(nut.id, 5);
   EXPECT_EQ(nut.category, 2);
   EXPECT_EQ(nut.area_px, 3);
-  EXPECT_EQ(nut.box, (PixelBox{1, 0, 2, 2}));
+  EXPECT_EQ(nut.box, (PixelRect{1, 0, 2, 2}));
   const InstanceLabel& hidden = labels->instances[1];
   EXPECT_EQ(hidden.id, 9);
   EXPECT_EQ(hidden.area_px, 0);
-  EXPECT_EQ(hidden.box, PixelBox{});
-  EXPECT_EQ(labels->instances[2].box, (PixelBox{3, 2, 1, 1}));
+  EXPECT_EQ(hidden.box, PixelRect{});
+  EXPECT_EQ(labels->instances[2].box, (PixelRect{3, 2, 1, 1}));
 }
 
 TEST(MakeLabels, NamesAnUnknownIdAndItsFirstPixel) {
@@ -121,7 +121,7 @@ TEST(MeasureExtents, AgreesWithCountingEachIdByItself) {
       }
     }
     EXPECT_EQ(extent.area_px, area);
-    EXPECT_EQ(extent.box, (PixelBox{left, top, right - left + 1, bottom - top + 1}));
+    EXPECT_EQ(extent.box, (PixelRect{left, top, right - left + 1, bottom - top + 1}));
   }
 }
 

@@ -59,7 +59,7 @@ inline Mask mask_of(const IdImage& ids) {
   for (const InstanceExtent& extent : measure_extents(ids)) {
     if (extent.id == kMaskId) return Mask(ids, kMaskId, extent.box);
   }
-  return Mask(ids, kMaskId, PixelBox{});
+  return Mask(ids, kMaskId, PixelRect{});
 }
 
 inline Bitmap bitmap_of(const IdImage& ids, int id = kMaskId) {

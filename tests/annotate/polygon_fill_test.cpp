@@ -59,7 +59,7 @@ TEST(CocoFill, AgreesWithTheDecoderOfTheTests) {
     EXPECT_EQ(polygon_iou(polygons, mask, FillRule::kCoco), 1.0);
     // Any vertices, also on half pixels, as simplified polygons have them.
     std::mt19937_64 random(seed);
-    const PixelBox& box = mask.box();
+    const PixelRect& box = mask.box();
     for (Polygon& polygon : polygons) {
       for (Vertex& vertex : polygon) {
         const auto near = [&](std::int32_t value, int begin, int size) {

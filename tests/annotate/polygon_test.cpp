@@ -302,7 +302,7 @@ TEST(WholePolygon, BoxIsWithinTwoHundredthsOfAPixel) {
     SCOPED_TRACE(mask.name);
     const auto row = yolo_row(polygon, mask.ids.width, mask.ids.height);
     const auto box = yolo_decoder::box_of_polygon_row(row, mask.ids.width, mask.ids.height);
-    const PixelBox& truth = view.box();
+    const PixelRect& truth = view.box();
     ASSERT_LE(yolo_decoder::box_error(box, truth.x, truth.y, truth.width, truth.height), 0.0201);
     ++checked;
   }

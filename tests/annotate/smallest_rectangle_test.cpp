@@ -23,9 +23,9 @@ double area_of(const OrientedBox& box) {
 /// leaves the image and must not.
 double area_at(const Mask& mask, double angle, bool in_image = false) {
   double low_u = 1e300, high_u = -1e300, low_v = 1e300, high_v = -1e300;
-  const PixelBox& box = mask.box();
-  for (int row = box.y; row < box.y + box.height; ++row) {
-    for (int column = box.x; column < box.x + box.width; ++column) {
+  const PixelRect& box = mask.box();
+  for (int row = box.y; row < box.end_y(); ++row) {
+    for (int column = box.x; column < box.end_x(); ++column) {
       if (!mask.at(row, column)) continue;
       for (const int dy : {0, 1}) {
         for (const int dx : {0, 1}) {

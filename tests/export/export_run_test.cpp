@@ -418,7 +418,7 @@ TEST(ExportFormats, KnowWhatWasMeant) {
 /// One instance as a format tells it.
 struct Told {
   int category = 0;
-  PixelBox box;
+  PixelRect box;
   Bitmap mask;  ///< empty for detection
 };
 using ToldByFrame = std::map<std::int64_t, std::vector<Told>>;

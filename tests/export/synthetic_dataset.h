@@ -170,7 +170,7 @@ class SyntheticDataset {
     for (InstanceLabel& label : labels.instances) {
       AmodalLabel& amodal = label.amodal.emplace();
       if (label.area_px == 0) continue;
-      const PixelBox& box = label.box;
+      const PixelRect& box = label.box;
       amodal.box = {box.x - 1, box.y, box.width + 1, box.height};
       amodal.area_px = amodal.box.area();
       amodal.in_image_px = box.x > 0 ? amodal.area_px : amodal.area_px - box.height;

@@ -63,7 +63,7 @@ TEST_P(ExportCoco, HoldsExactlyTheMasksThatWereRendered) {
     const std::vector<Json>& found = annotations[frame.index + 1];
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      const PixelBox& box = expected[i].box;
+      const PixelRect& box = expected[i].box;
       EXPECT_EQ(found[i].at("category_id"), expected[i].category);
       EXPECT_EQ(found[i].at("bbox"), Json({box.x, box.y, box.width, box.height}));
       EXPECT_EQ(found[i].at("area"), expected[i].area_px);

@@ -112,7 +112,7 @@ TEST_F(ExportYolo, DetectionBoxesAreThoseOfThePixels) {
       EXPECT_EQ(found[i].category, expected[i].category - 1);
       ASSERT_EQ(found[i].numbers.size(), 4U);
       const auto box = yolo_decoder::box_of_centre_row(found[i], 160, 120);
-      const PixelBox& truth = expected[i].box;
+      const PixelRect& truth = expected[i].box;
       EXPECT_LE(yolo_decoder::box_error(box, truth.x, truth.y, truth.width, truth.height), 0.001);
       ++compared;
     }
@@ -144,7 +144,7 @@ void expect_segments(const SyntheticDataset& campaign, const ExportOptions& opti
         ASSERT_LE(number, 1.0F);
       }
       const auto box = yolo_decoder::box_of_polygon_row(found[i], 160, 120);
-      const PixelBox& pixels = expected[i].box;
+      const PixelRect& pixels = expected[i].box;
       EXPECT_LE(yolo_decoder::box_error(box, pixels.x, pixels.y, pixels.width, pixels.height),
                 box_tolerance_px);
       const Bitmap mask = bitmap_of(truth.ids, expected[i].id);

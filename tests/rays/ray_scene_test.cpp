@@ -275,8 +275,8 @@ TEST(RayScene, ASilhouetteIsTheInstanceAlone) {
     EXPECT_EQ(static_cast<double>(silhouette.in_image_px), counts.in_image);
     ASSERT_EQ(silhouette.mask.size(), static_cast<std::size_t>(silhouette.box.area()));
     const PixelRect& box = silhouette.box;
-    for (int y = std::max(0, box.y); y < std::min(120, box.y + box.height); ++y) {
-      for (int x = std::max(0, box.x); x < std::min(160, box.x + box.width); ++x) {
+    for (int y = std::max(0, box.y); y < std::min(120, box.end_y()); ++y) {
+      for (int x = std::max(0, box.x); x < std::min(160, box.end_x()); ++x) {
         const auto at = static_cast<std::size_t>((y - box.y) * box.width + x - box.x);
         ASSERT_EQ(silhouette.mask[at] != 0, alone.first_hit(x, y) == 0);
       }
