@@ -6,6 +6,8 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh
 seedframe=build/release/seedframe
 campaign=${1:-results/parts}
+typed=seedframe # what the user can type, if setup.sh could arrange it
+[ "$(readlink -f "$(command -v seedframe)")" = "$(readlink -f "$seedframe")" ] || typed=$seedframe
 
 if [ -f "$campaign/campaign.sqlite" ]; then
   $seedframe resume "$campaign"
@@ -21,5 +23,5 @@ Look at
   $campaign/frames/000/000000/image.png            the first image; beside it its masks, labels and frame spec
   $campaign/exports/coco/annotations/              COCO, one file a split
   $campaign/exports/yolo-segment/data.yaml         YOLO, ready for a trainer
-  $seedframe explain $campaign 0                   where each number of frame 0 comes from
+  $typed explain $campaign 0                   where each number of frame 0 comes from
 END

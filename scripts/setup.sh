@@ -2,13 +2,14 @@
 # Installs what building, testing and rendering need on Debian 12, and builds. Run again, it does only what is
 # missing. As root, or with sudo.
 #
-#   scripts/setup.sh            packages and a release build
+#   scripts/setup.sh            packages, a release build, and a link to it in PATH
 #   scripts/setup.sh --packages packages only
 set -eu
 cd "$(dirname "$0")/.."
 
 packages="
-  bubblewrap ca-certificates ccache clang clang-format clang-tidy cmake g++ git libclang-rt-dev ninja-build pkg-config
+  bubblewrap ca-certificates ccache clang clang-format clang-tidy cmake dpkg-dev fish g++ git gzip libclang-rt-dev
+  man-db ninja-build pkg-config zsh
   blender python3 python3-jsonschema python3-numpy python3-pil python3-yaml
   libarchive-dev libboost-dev libcgal-dev libcli11-dev libdraco-dev libeigen3-dev libembree-dev libexpected-dev
   libfmt-dev
@@ -37,3 +38,4 @@ fi
 
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
 ninja -C build/release seedframe
+echo "setup.sh: $(scripts/link_program.sh build/release/seedframe)"

@@ -157,9 +157,13 @@ CLI::App* add_action(CLI::App& verb, const std::string& name, const std::string&
                      Action action) {
   CLI::App* added = verb.add_subcommand(name, help);
   added->add_option("--root", options->root, "The asset library's folder")
+      ->type_name("DIR")
       ->default_str("assets beside the program");
   added->callback([options, on_selected, action] {
-    on_selected([options, action] { return action(*options); });
+    on_selected([options, action] {
+      const auto home = options->root.empty() ? find_home() : fs::path();
+      return home ? action(*options) : report(home.error());
+    });
   });
   return added;
 }

@@ -20,6 +20,7 @@
 #include "cli/verb.h"
 #include "export/campaign_dataset.h"
 #include "formats/formats.h"
+#include "manual/describe_command.h"
 
 namespace seedframe {
 namespace {
@@ -127,6 +128,12 @@ int audit(AuditArguments& arguments) {
   return exit_code_of(result, exports);
 }
 
+std::vector<std::string> condition_words() {
+  std::vector<std::string> words = {"all", "none", to_string(Condition::kIsa)};
+  for (const Condition condition : usual_conditions()) words.emplace_back(to_string(condition));
+  return words;
+}
+
 }  // namespace
 
 void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
@@ -150,13 +157,15 @@ void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
       ->capture_default_str();
   verb->add_option("--vary", arguments->vary,
                    "conditions: threads, workers, order, fresh-worker, history, tmpdir, locale, "
-                   "timezone, isa; all or none (default: all that the campaign's mode covers)");
+                   "timezone, isa; all or none (default: all that the campaign's mode covers)")
+      ->check(offers(condition_words()));
   verb->add_option("--causes", options.most_causes,
                    "most frames whose cause is looked for by more renderings")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb->add_option("-o,--output", arguments->output,
-                   "folder for the report (default: audit/ in the campaign's)");
+                   "folder for the report (default: audit/ in the campaign's)")
+      ->type_name("DIR");
   add_tolerance_options(*verb, options.tolerance);
   std::filesystem::path& blender = arguments->run.pool.worker.blender;
   verb->add_option("--blender", blender, "Blender to render with: a path, or a name in PATH")

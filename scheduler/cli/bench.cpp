@@ -86,6 +86,7 @@ void add_bench_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::App* verb = bench->add_subcommand(
       "determinism", "what changes Cycles' pixels: nine scenes in many conditions (minutes)");
   verb->add_option("-o,--output", arguments->output, "folder for the tables and the plot")
+      ->type_name("DIR")
       ->capture_default_str();
   verb->add_option("--blender", arguments->blender, "Blender: a path, or a name in PATH")
       ->capture_default_str();

@@ -96,8 +96,9 @@ void add_check_verb(CLI::App& app, const OnSelected& on_selected) {
       ->allow_extra_args(false);
   add_allow_option(*verb, arguments->allowed);
   verb->add_option(
-      "--graphs", arguments->graphs,
-      "write each frame's variables to this file, as JSON lines (docs/formats/graphs.md)");
+          "--graphs", arguments->graphs,
+          "write each frame's variables to this file, as JSON lines (docs/formats/graphs.md)")
+      ->type_name("FILE");
   verb->add_flag("--json", arguments->json, "print what was found as JSON");
   verb->footer("Example: seedframe check configs/parts.yaml");
   verb->callback(

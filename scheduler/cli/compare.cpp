@@ -108,14 +108,15 @@ void add_compare_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::App* verb = app.add_subcommand(
       "compare",
       "two campaigns, frame by frame: what differs, how much, and what it was made with");
-  verb->add_option("A", arguments->first, "folder of a campaign")->required();
-  verb->add_option("B", arguments->second, "folder of another one")->required();
+  verb->add_option("A", arguments->first, "folder of a campaign")->required()->type_name("DIR");
+  verb->add_option("B", arguments->second, "folder of another one")->required()->type_name("DIR");
   verb->add_option("--frames", arguments->most_frames,
                    "most differing frames whose pixels are looked at")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb->add_option("--images", arguments->heat_maps,
-                   "write a picture of each difference into this folder");
+                   "write a picture of each difference into this folder")
+      ->type_name("DIR");
   add_tolerance_options(*verb, arguments->tolerance);
   verb->add_flag("--json", arguments->json, "print it as JSON");
   verb->footer("Example: seedframe compare results/parts results/parts_again");

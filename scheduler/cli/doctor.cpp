@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "assets/asset_library.h"
+#include "base/canonical_json.h"
 #include "base/sha256.h"
 #include "campaign/color_config.h"
 #include "campaign/prepared_campaign.h"
@@ -26,22 +27,30 @@ namespace fs = std::filesystem;
 
 struct DoctorArguments {
   std::string blender = "blender";
+  bool json = false;
 };
 
-/// Prints one finding a line and remembers whether any was bad.
+/// What was found, in order, and whether any of it was bad.
 class Findings {
  public:
-  void good(const std::string& what, const std::string& text) {
-    fmt::print("ok    {:<12} {}\n", what, text);
-  }
-  void bad(const std::string& what, const std::string& text) {
-    fmt::print("FAIL  {:<12} {}\n", what, text);
-    any_bad_ = true;
-  }
+  /// Prints each finding on a line of its own as it comes, unless all are wanted as JSON.
+  explicit Findings(bool print) : print_(print) {}
+
+  void good(const std::string& what, const std::string& text) { add(true, what, text); }
+  void bad(const std::string& what, const std::string& text) { add(false, what, text); }
   bool any_bad() const { return any_bad_; }
+  const Json& json() const { return json_; }
 
  private:
+  void add(bool good, const std::string& what, const std::string& text) {
+    if (print_) fmt::print("{:<5} {:<12} {}\n", good ? "ok" : "FAIL", what, text);
+    json_.push_back({{"what", what}, {"good", good}, {"found", text}});
+    any_bad_ = any_bad_ || !good;
+  }
+
+  bool print_;
   bool any_bad_ = false;
+  Json json_ = Json::array();
 };
 
 void examine_blender(const std::string& program, Findings& findings) {
@@ -67,13 +76,16 @@ void examine_blender(const std::string& program, Findings& findings) {
 }
 
 void examine_home(Findings& findings) {
-  const fs::path home = seedframe_home();
+  const Result<fs::path> found = find_home();
+  if (!found) return findings.bad("home", found.error().message);
+  const fs::path& home = *found;
+  findings.good("home", home.string());
   std::error_code error;
-  if (fs::is_regular_file(home / "blender_scripts" / "render_worker.py", error)) {
-    findings.good("home", home.string());
+  const fs::path preload = worker_preload();
+  if (fs::exists(preload, error)) {
+    findings.good("preload", preload.string());
   } else {
-    findings.bad("home",
-                 home.string() + " has no blender_scripts/render_worker.py: set SEEDFRAME_HOME");
+    findings.bad("preload", preload.string() + " is missing: it is installed with the program");
   }
   const auto assets = AssetLibrary::open({home / "assets"});
   std::size_t readable = 0;
@@ -98,7 +110,7 @@ void examine_home(Findings& findings) {
 }
 
 int examine(const DoctorArguments& arguments) {
-  Findings findings;
+  Findings findings(!arguments.json);
   findings.good("seedframe", SEEDFRAME_VERSION);
   examine_blender(arguments.blender, findings);
   examine_home(findings);
@@ -115,6 +127,7 @@ int examine(const DoctorArguments& arguments) {
   std::error_code error;
   const fs::space_info space = fs::space(fs::current_path(), error);
   findings.good("disk", fmt::format("{} GB free here", space.available / 1'000'000'000));
+  if (arguments.json) fmt::print("{}", readable_json(findings.json()));
   return findings.any_bad() ? kExitEnvironment : kExitOk;
 }
 
@@ -125,6 +138,7 @@ void add_doctor_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::App* verb = app.add_subcommand("doctor", "what is installed, and whether it is enough");
   verb->add_option("--blender", arguments->blender, "Blender to look at: a path, or a name in PATH")
       ->capture_default_str();
+  verb->add_flag("--json", arguments->json, "print it as JSON");
   verb->footer("Example: seedframe doctor --blender /opt/blender/blender");
   verb->callback(
       [arguments, on_selected] { on_selected([arguments] { return examine(*arguments); }); });

@@ -20,6 +20,7 @@
 #include "export/export_run.h"
 #include "export/verify.h"
 #include "formats/formats.h"
+#include "manual/describe_command.h"
 
 namespace seedframe {
 namespace {
@@ -212,6 +213,12 @@ int export_campaign(const ExportArguments& arguments) {
   return kExitOk;
 }
 
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const FormatEntry& format : export_formats()) names.emplace_back(format.name);
+  return names;
+}
+
 std::string list_of_formats() {
   std::string list = "annotation format, can be given more than once:";
   for (const FormatEntry& format : export_formats()) {
@@ -228,9 +235,13 @@ void add_export_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("DIR", arguments->folder, "folder of the campaign")->required();
   ExportOptions& options = arguments->options;
   options.workers = 0;
-  verb->add_option("--format", arguments->formats, list_of_formats())->allow_extra_args(false);
+  verb->add_option("--format", arguments->formats, list_of_formats())
+      ->allow_extra_args(false)
+      ->type_name("FORMAT")
+      ->check(offers(format_names()));
   verb->add_option("-o,--output", arguments->output,
-                   "folder to write to (default: exports/ in the campaign's folder)");
+                   "folder to write to (default: exports/ in the campaign's folder)")
+      ->type_name("DIR");
   verb->add_option("--split", arguments->split,
                    "shares of the scenes, such as train=0.7,val=0.2,test=0.1 (default: all train)");
   verb->add_option("--min-pixels", options.min_pixels,

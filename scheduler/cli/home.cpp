@@ -1,32 +1,79 @@
 #include "cli/home.h"
 
 #include <cstdlib>
+#include <vector>
 
 namespace seedframe {
+namespace {
 
-std::filesystem::path seedframe_home() {
-  const char* home = std::getenv("SEEDFRAME_HOME");
-  return home != nullptr && *home != '\0' ? home : SEEDFRAME_HOME;
+namespace fs = std::filesystem;
+
+fs::path program_folder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
-std::filesystem::path cache_folder() {
+bool is_below(const fs::path& file, const fs::path& folder) {
+  const fs::path relative = file.lexically_relative(folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+bool is_home(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_regular_file(folder / "blender_scripts/render_worker.py", error) &&
+         fs::is_directory(folder / "assets", error) &&
+         fs::is_directory(folder / "materials", error);
+}
+
+}  // namespace
+
+Result<fs::path> find_home() {
+  const char* named = std::getenv("SEEDFRAME_HOME");
+  if (named != nullptr && *named != '\0') {
+    if (is_home(named)) return fs::path(named);
+    return fail(ErrorKind::kEnvironment,
+                "SEEDFRAME_HOME is '{}', which has no blender_scripts/, assets/ and materials/: "
+                "let it name a checkout or share/seedframe of an installation, or unset it",
+                named);
+  }
+  const fs::path program = program_folder();
+  std::vector<fs::path> places = {(program / SEEDFRAME_DATA_FROM_PROGRAM).lexically_normal()};
+  // Elsewhere, the builder's folder is none of ours, and could be anybody's.
+  if (is_below(program, SEEDFRAME_BUILD_FOLDER)) places.emplace_back(SEEDFRAME_CHECKOUT);
+  std::string list;
+  for (const fs::path& place : places) {
+    if (is_home(place)) return place;
+    list += (list.empty() ? "" : " and ") + place.string();
+  }
+  return fail(ErrorKind::kEnvironment,
+              "the program's own blender_scripts/, assets/ and materials/ are not there: looked in "
+              "{}. Install Seedframe again, as a whole, or let SEEDFRAME_HOME name a checkout",
+              list);
+}
+
+fs::path seedframe_home() { return find_home().value_or(fs::path()); }
+
+fs::path cache_folder() {
   const auto value = [](const char* name) {
     const char* text = std::getenv(name);
-    return std::filesystem::path(text != nullptr ? text : "");
+    return fs::path(text != nullptr ? text : "");
   };
-  std::filesystem::path own = value("SEEDFRAME_CACHE");
+  fs::path own = value("SEEDFRAME_CACHE");
   if (own == "off") return {};
   if (!own.empty()) return own;
-  const std::filesystem::path users = value("XDG_CACHE_HOME");
+  const fs::path users = value("XDG_CACHE_HOME");
   if (users.is_absolute()) return users / "seedframe";
-  const std::filesystem::path home = value("HOME");
-  return home.is_absolute() ? home / ".cache/seedframe" : std::filesystem::path();
+  const fs::path home = value("HOME");
+  return home.is_absolute() ? home / ".cache/seedframe" : fs::path();
 }
 
-std::filesystem::path worker_preload() {
+fs::path worker_preload() {
+  constexpr const char* kLibrary = "seedframe_worker_cpu.so";
+  const fs::path program = program_folder();
   std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  return program.parent_path() / "seedframe_worker_cpu.so";
+  const fs::path installed =
+      (program / SEEDFRAME_LIBRARIES_FROM_PROGRAM / kLibrary).lexically_normal();
+  return fs::exists(installed, error) ? installed : program / kLibrary;
 }
 
 }  // namespace seedframe

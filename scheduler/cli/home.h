@@ -1,11 +1,18 @@
-// Where the program finds blender_scripts/, assets/ and materials/, and its own library.
+// Where the program finds what belongs to it: in a checkout, or where it was installed.
 #pragma once
 
 #include <filesystem>
 
+#include "base/error.h"
+
 namespace seedframe {
 
-/// The environment's SEEDFRAME_HOME, or else the checkout that the program was built from.
+/// The folder with blender_scripts/, assets/, materials/ and configs/: the environment's
+/// SEEDFRAME_HOME; else share/seedframe of the place that the program is installed in; else, for a
+/// program that is still in its build folder, the checkout. kEnvironment: it is not there.
+Result<std::filesystem::path> find_home();
+
+/// For verbs that main.cpp starts only if there is one.
 std::filesystem::path seedframe_home();
 
 /// Where frames of this machine are noted (campaign/frame_cache.h): the folder that the
@@ -13,7 +20,8 @@ std::filesystem::path seedframe_home();
 /// no home.
 std::filesystem::path cache_folder();
 
-/// The library that is preloaded into workers (render/worker_conditions.h): beside the program.
+/// The library that is preloaded into workers (render/worker_conditions.h): beside the program, or
+/// in lib/seedframe of the place that it is installed in.
 std::filesystem::path worker_preload();
 
 }  // namespace seedframe

@@ -11,6 +11,7 @@
 
 #include "base/nearest_name.h"
 #include "cli/exit_code.h"
+#include "cli/home.h"
 #include "cli/verb.h"
 
 namespace {
@@ -67,17 +68,24 @@ int run(int argc, char** argv) {
   const seedframe::OnSelected on_selected = [&action](std::function<int()> selected) {
     action = std::move(selected);
   };
-  seedframe::add_submit_verb(app, on_selected);
-  seedframe::add_resume_verb(app, on_selected);
+  const seedframe::OnSelected with_home = [&on_selected](std::function<int()> selected) {
+    on_selected([selected = std::move(selected)] {
+      const auto home = seedframe::find_home();
+      return home ? selected() : seedframe::report(home.error());
+    });
+  };
+  seedframe::add_submit_verb(app, with_home);
+  seedframe::add_resume_verb(app, with_home);
   seedframe::add_status_verb(app, on_selected);
-  seedframe::add_explain_verb(app, on_selected);
-  seedframe::add_export_verb(app, on_selected);
-  seedframe::add_check_verb(app, on_selected);
+  seedframe::add_explain_verb(app, with_home);
+  seedframe::add_export_verb(app, with_home);
+  seedframe::add_check_verb(app, with_home);
   seedframe::add_asset_verb(app, on_selected);
-  seedframe::add_audit_verb(app, on_selected);
-  seedframe::add_bench_verb(app, on_selected);
+  seedframe::add_audit_verb(app, with_home);
+  seedframe::add_bench_verb(app, with_home);
   seedframe::add_compare_verb(app, on_selected);
   seedframe::add_doctor_verb(app, on_selected);
+  seedframe::add_manual_verb(app, on_selected);
   app.footer("Example: seedframe submit configs/parts.yaml");
 
   const std::string first = argc > 1 ? argv[1] : "";

@@ -91,7 +91,8 @@ void add_submit_verb(CLI::App& app, const OnSelected& on_selected) {
       app.add_subcommand("submit", "validate, expand and render a campaign to the end");
   verb->add_option("CONFIG", arguments->config, "campaign config (docs/config.md)")->required();
   verb->add_option("-o,--output", arguments->output,
-                   "folder of the campaign (default: results/<name of the campaign>)");
+                   "folder of the campaign (default: results/<name of the campaign>)")
+      ->type_name("DIR");
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
       ->allow_extra_args(false);
   add_allow_option(*verb, arguments->allowed);
