@@ -17,6 +17,7 @@ from mathutils import Vector
 
 import make_assets_household as household
 import make_assets_parts as parts
+import make_assets_robot as robot
 import make_assets_soccer as soccer
 from make_assets_forms import box_uv, uv_layer, wrapped
 
@@ -50,11 +51,11 @@ ASSETS = [
     ('cylinder', parts.cylinder, wrapped(on_cylinder)),
     ('cone', parts.cone, wrapped(on_cylinder)),
     ('torus', parts.torus, project),
-] + [(name, shape, None) for name, shape in soccer.ASSETS + household.ASSETS]
+] + [(name, shape, None) for name, shape in robot.ASSETS + soccer.ASSETS + household.ASSETS]
 
 # The material slots, in the order of the faces' material_index. All others: ONE_SLOT.
 ONE_SLOT = ('body',)
-SLOTS = {**soccer.SLOTS, **household.SLOTS}
+SLOTS = {**robot.SLOTS, **soccer.SLOTS, **household.SLOTS}
 
 
 def centre(mesh):
