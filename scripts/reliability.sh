@@ -3,17 +3,22 @@
 # The scripts of tests/reliability/ say how; each fails if anything was lost, duplicated, torn or wrongly called done.
 #
 #   scripts/reliability.sh [full]          everything: every call, 1,000 kills, 30 of them… takes about an hour on two cores
-#   scripts/reliability.sh quick [BUILD]   a sample, in a minute or two, into no report; BUILD is build/release by default
+#   scripts/reliability.sh quick [BUILD [SCRIPT]]
+#                                          a sample, in two minutes, into no report; of one script or of all;
+#                                          BUILD is build/release by default
 set -u
 cd "$(dirname "$0")/.."
 export SEEDFRAME_CACHE=off  # what is rendered here is rendered
 what=${1:-full}
 build=${2:-build/release}
+only=${3:-}
 failed=0
 
 run() { # script, arguments…
   script=$1
   shift
+  [ "${only:-${script%.py}}" = "${script%.py}" ] || return 0
+  ran=yes
   echo "== $script $*"
   "tests/reliability/$script" --build "$build" "$@" || failed=1
 }
@@ -42,4 +47,5 @@ case $what in
     exit 2
     ;;
 esac
+[ -n "${ran:-}" ] || { echo "reliability.sh: there is no script '$only'" >&2; exit 2; }
 exit $failed

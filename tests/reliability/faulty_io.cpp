@@ -1,25 +1,8 @@
 // Preloaded into the scheduler (LD_PRELOAD), stands between it and libc's calls that change files:
 // kills it at the Nth of them, or fails calls as a full, broken or read-only disk would.
-//
-// FAULTY_IO in the environment: `key=value` with `;` between.
-//
-//     under=DIR         only calls on DIR and what is below it (an absolute path without symlinks)
-//     calls=a,b,…       only these (names of kCallNames); by default all but read-open
-//     log=FILE          gets a line "<number> <call> <path>" for each such call, before it is made
-//     at=N do=…         from the Nth such call on, counted from 1:
-//       kill              SIGKILL before the call            ┐
-//       kill-after        SIGKILL after it                   │ at the Nth only
-//       kill-within       SIGKILL after half of what it      │
-//                         writes; else as kill-after         ┘
-//       ENOSPC, EIO, …    the call is not made and fails so
-//       short-write       half of it is written and reported; else as it is
-//     times=K           fail K calls and no more
-//     until-file=FILE   fail only while FILE exists
-//     tell-file=FILE    is made at the first failure
-//
-// Both variables are removed from the environment at once, so children go undisturbed. What cannot
-// be seen from here: stores to shared mappings (SQLite's -shm, which it never relies on after a
-// crash) and what libc writes by itself (stdio; nothing in a campaign's folder).
+// fault_plan.h says how it is told what to do. What cannot be seen from here: stores to shared
+// mappings (SQLite's -shm, which it never relies on after a crash) and what libc writes by itself
+// (stdio; nothing in a campaign's folder).
 
 #include <atomic>
 #include <cerrno>
@@ -38,131 +21,13 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include "fault_plan.h"
+
+using namespace faulty_io;
+
 namespace {
 
-enum class Call {
-  kOpen,  ///< that may create, truncate or write
-  kReadOpen,
-  kWrite,
-  kPwrite,
-  kWritev,
-  kFsync,
-  kFdatasync,
-  kSyncfs,
-  kTruncate,
-  kRename,
-  kUnlink,
-  kMkdir,
-  kRmdir,
-  kLink,
-  kSymlink,
-  kCount
-};
-
-constexpr const char* kCallNames[] = {"open",   "read-open", "write",  "pwrite",    "writev",
-                                      "fsync",  "fdatasync", "syncfs", "ftruncate", "rename",
-                                      "unlink", "mkdir",     "rmdir",  "link",      "symlink"};
-static_assert(sizeof kCallNames / sizeof *kCallNames == static_cast<std::size_t>(Call::kCount));
-
-enum class Action { kNone, kKill, kKillAfter, kKillWithin, kFail, kShortWrite };
-
-struct Plan {
-  char under[PATH_MAX] = "";
-  char log[PATH_MAX] = "";
-  char until_file[PATH_MAX] = "";
-  char tell_file[PATH_MAX] = "";
-  unsigned calls = ~(1u << static_cast<unsigned>(Call::kReadOpen));
-  Action action = Action::kNone;
-  int error = 0;
-  long at = 0;
-  long times = LONG_MAX;
-};
-
-// Written once, before main; no lock and no allocation afterwards, as calls come from all threads
-// and between fork and exec.
-Plan g_plan;
-bool g_active = false;
 std::atomic<long> g_calls{0};
-
-[[noreturn]] void give_up(const char* what, const char* value) {
-  std::fprintf(stderr, "faulty_io: %s '%s' is not known\n", what, value);
-  _exit(125);
-}
-
-unsigned parse_calls(char* names) {
-  unsigned calls = 0;
-  char* rest = nullptr;
-  for (char* name = strtok_r(names, ",", &rest); name != nullptr;
-       name = strtok_r(nullptr, ",", &rest)) {
-    unsigned index = 0;
-    while (index < static_cast<unsigned>(Call::kCount) && strcmp(name, kCallNames[index]) != 0) {
-      ++index;
-    }
-    if (index == static_cast<unsigned>(Call::kCount)) give_up("call", name);
-    calls |= 1u << index;
-  }
-  return calls;
-}
-
-void parse_action(const char* name) {
-  struct Named {
-    const char* name;
-    Action action;
-    int error;
-  };
-  constexpr Named kActions[] = {{"kill", Action::kKill, 0},
-                                {"kill-after", Action::kKillAfter, 0},
-                                {"kill-within", Action::kKillWithin, 0},
-                                {"short-write", Action::kShortWrite, 0},
-                                {"ENOSPC", Action::kFail, ENOSPC},
-                                {"EIO", Action::kFail, EIO},
-                                {"EROFS", Action::kFail, EROFS},
-                                {"EMFILE", Action::kFail, EMFILE},
-                                {"EDQUOT", Action::kFail, EDQUOT}};
-  for (const Named& each : kActions) {
-    if (strcmp(name, each.name) != 0) continue;
-    g_plan.action = each.action;
-    g_plan.error = each.error;
-    return;
-  }
-  give_up("action", name);
-}
-
-void set(const char* key, char* value) {
-  const auto copy = [&](char(&to)[PATH_MAX]) { std::snprintf(to, sizeof to, "%s", value); };
-  if (strcmp(key, "under") == 0) return copy(g_plan.under);
-  if (strcmp(key, "log") == 0) return copy(g_plan.log);
-  if (strcmp(key, "until-file") == 0) return copy(g_plan.until_file);
-  if (strcmp(key, "tell-file") == 0) return copy(g_plan.tell_file);
-  if (strcmp(key, "do") == 0) return parse_action(value);
-  if (strcmp(key, "at") == 0) {
-    g_plan.at = std::atol(value);
-  } else if (strcmp(key, "times") == 0) {
-    g_plan.times = std::atol(value);
-  } else if (strcmp(key, "calls") == 0) {
-    g_plan.calls = parse_calls(value);
-  } else {
-    give_up("key", key);
-  }
-}
-
-[[gnu::constructor]] void read_plan() {
-  const char* text = getenv("FAULTY_IO");
-  if (text == nullptr) return;
-  static char copy[4 * PATH_MAX];
-  std::snprintf(copy, sizeof copy, "%s", text);
-  unsetenv("FAULTY_IO");
-  unsetenv("LD_PRELOAD");
-  char* rest = nullptr;
-  for (char* entry = strtok_r(copy, ";", &rest); entry != nullptr;
-       entry = strtok_r(nullptr, ";", &rest)) {
-    char* equals = strchr(entry, '=');
-    if (equals == nullptr) give_up("entry", entry);
-    *equals = '\0';
-    set(entry, equals + 1);
-  }
-  g_active = true;
-}
 
 // ---- Paths ----
 
