@@ -12,6 +12,7 @@
 #include "base/portable_math.h"
 #include "base/sha256.h"
 #include "mesh/mesh_buffer.h"
+#include "tests/fixtures/message_of.h"
 #include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
@@ -318,7 +319,7 @@ TEST_F(Library, FilesThatLeadOutOfItAreRefused) {
   fs::rename(root() / "part", folder_ / "elsewhere");
   const auto reason = [&] {
     const auto asset = AssetLibrary::open({root()})->load("part");
-    return asset ? std::string("(no error)") : asset.error().message;
+    return message_of(asset);
   };
   for (const char* name : {"mesh.drc", "asset.json", "thumbnail.png"}) {
     fs::remove_all(root() / "part");

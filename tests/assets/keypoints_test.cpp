@@ -9,6 +9,7 @@
 #include "assets/asset_files.h"
 #include "assets/asset_library.h"
 #include "base/files.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -65,9 +66,7 @@ TEST(Keypoints, DamagedOnesAreNamed) {
 }
 
 TEST(Keypoints, AreSetInAnAssetAndTakenAwayAgain) {
-  const fs::path root = fs::path(::testing::TempDir()) / "keypoints_test";
-  fs::remove_all(root);
-  fs::create_directories(root);
+  const ScratchFolder root;
   fs::copy(fs::path(SEEDFRAME_HOME) / "assets/gear", root / "gear", fs::copy_options::recursive);
   const std::string before = *read_file(root / "gear/asset.json");
   ASSERT_TRUE(set_keypoints(root / "gear", two_points()));
@@ -79,7 +78,6 @@ TEST(Keypoints, AreSetInAnAssetAndTakenAwayAgain) {
   EXPECT_FALSE(set_keypoints(root / "gear", wrong));
   ASSERT_TRUE(set_keypoints(root / "gear", {}));
   EXPECT_EQ(*read_file(root / "gear/asset.json"), before);
-  fs::remove_all(root);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "base/files.h"
+#include "tests/fixtures/message_of.h"
 #include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
@@ -27,7 +28,7 @@ class Allowed : public ::testing::Test {
   std::string error(const fs::path& path) const {
     const Status status = AllowedFolders({folder_ / "data"}).check(path, "'it'");
     EXPECT_TRUE(status || status.error().kind == ErrorKind::kInput);
-    return status ? "(no error)" : status.error().message;
+    return message_of(status);
   }
 
   ScratchFolder folder_;

@@ -4,6 +4,7 @@
 
 #include "base/nearest_name.h"
 #include "base/sha256.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -12,14 +13,7 @@ namespace fs = std::filesystem;
 
 class FilesTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(FilesTest, WritesAndReadsBytes) {
@@ -32,7 +26,7 @@ TEST_F(FilesTest, ReplacesAtomicallyAndLeavesNoTemporary) {
   ASSERT_TRUE(write_file_atomically(folder_ / "f", "old"));
   ASSERT_TRUE(write_file_atomically(folder_ / "f", "new"));
   EXPECT_EQ(*read_file(folder_ / "f"), "new");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
 }
 
 TEST_F(FilesTest, CommitReplacesAFolderThatIsThere) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -16,9 +17,6 @@ namespace fs = std::filesystem;
 class StoreWriterTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    root_ = fs::path(::testing::TempDir()) /
-            ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(root_);
     fs::create_directories(root_ / "frames");
     files_ = std::make_unique<CampaignFiles>(root_);
     auto store = JobStore::create(files_->store());
@@ -32,7 +30,6 @@ class StoreWriterTest : public ::testing::Test {
       return row;
     }));
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   /// Writes `events` to the end.
   void write(const std::vector<StoreEvent>& events) {
@@ -56,7 +53,7 @@ class StoreWriterTest : public ::testing::Test {
   FrameRow row(std::int64_t frame) { return store_->frame(frame)->value(); }
 
   static constexpr std::int64_t kFrames = 200;
-  fs::path root_;
+  ScratchFolder root_;
   std::unique_ptr<CampaignFiles> files_;
   std::unique_ptr<JobStore> store_;
   int written_ = 0;

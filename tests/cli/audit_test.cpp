@@ -31,7 +31,6 @@ labels: {check: false}
 class AuditTest : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     make_part("cube");
     std::filesystem::create_directories(folder_ / "textures");
     std::filesystem::copy(SEEDFRAME_HOME "/materials/textures/Brick01",
@@ -42,18 +41,7 @@ class AuditTest : public ProgramTest {
           folder_ / "textures/Painted" / ("Brick01_" + std::string(map) + ".png"),
           folder_ / "textures/Painted" / ("Painted_" + std::string(map) + ".png"), error);
     }
-    write("audited.yaml", kAudited + ("image: {ocio_config: " + kOcioConfig + "}\n"));
-  }
-  /// The asset "part", from a built-in one.
-  void make_part(const std::string& original) {
-    std::filesystem::remove_all(folder_ / "own/part");
-    std::filesystem::create_directories(folder_ / "own");
-    std::filesystem::copy(SEEDFRAME_HOME "/assets/" + original, folder_ / "own/part",
-                          std::filesystem::copy_options::recursive);
-    std::string json = *read_file(folder_ / "own/part/asset.json");
-    const std::string name = "\"name\": \"" + original + "\"";
-    json.replace(json.find(name), name.size(), "\"name\": \"part\"");
-    write("own/part/asset.json", json);
+    write_config("audited.yaml", kAudited);
   }
   void submit(const std::string& fake = "{}", std::vector<std::string> more = {}) {
     std::vector<std::string> arguments = {

@@ -79,7 +79,7 @@ TEST_F(BadInputTest, Views) {
 }
 
 TEST_F(BadInputTest, OutputThatCannotBeWritten) {
-  write("scene.yaml", with_object("{asset: gear}") + "image: {ocio_config: " + kOcioConfig + "}\n");
+  write_config("scene.yaml", with_object("{asset: gear}"));
   const Outcome nowhere =
       run({"submit", "scene.yaml", "-o", "/proc/nowhere/c", "--blender", kFakeBlender});
   EXPECT_EQ(nowhere.exit_code, 2) << nowhere.errors;
@@ -106,7 +106,7 @@ TEST_F(BadInputTest, Blenders) {
 }
 
 TEST_F(BadInputTest, ABlenderThatIsNotTestedIsSaidSoAndNotRefused) {
-  write("scene.yaml", with_object("{asset: gear}") + "image: {ocio_config: " + kOcioConfig + "}\n");
+  write_config("scene.yaml", with_object("{asset: gear}"));
   write("new_blender", "#!/bin/sh\necho Blender 4.2.1 LTS\n");
   std::filesystem::permissions(folder_ / "new_blender", std::filesystem::perms::owner_all);
   const Outcome outcome =

@@ -25,10 +25,7 @@ labels: {check: false}
 
 class CacheTest : public ProgramTest {
  protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    write("cached.yaml", kCached + ("image: {ocio_config: " + kOcioConfig + "}\n"));
-  }
+  void SetUp() override { write_config("cached.yaml", kCached); }
   Outcome with_cache(std::vector<std::string> arguments, const std::string& fake = "{}") {
     arguments.insert(arguments.end(), {"--blender", kFakeBlender});
     return run(arguments,

@@ -28,8 +28,7 @@ constexpr std::size_t kComparedFrames = 12;
 class CompareTest : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
-    write("compared.yaml", kCompared + ("image: {ocio_config: " + kOcioConfig + "}\n"));
+    write_config("compared.yaml", kCompared);
     submit("a");
   }
   void submit(const std::string& folder, const std::string& fake = "{}",

@@ -46,8 +46,7 @@ const std::vector<std::string> kFormats = {"coco",          "coco-polygon", "coc
 class ExportTest : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
-    write("parts.yaml", kParts + ("image: {ocio_config: " + kOcioConfig + "}\n"));
+    write_config("parts.yaml", kParts);
     ASSERT_EQ(
         run({"submit", "parts.yaml", "-o", "c", "--set", "labels=geometry", "--quiet"}).exit_code,
         0);

@@ -37,10 +37,8 @@ bool is_running(pid_t pid) {
 class FaultsTest : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     // The fake draws rectangles: no twin would agree.
-    write("faults.yaml",
-          kFaults + ("labels: {check: false}\nimage: {ocio_config: " + kOcioConfig + "}\n"));
+    write_config("faults.yaml", std::string(kFaults) + "labels: {check: false}\n");
   }
   Outcome submit(const std::string& fake, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments = {"submit",    "faults.yaml", "-o",        "c",

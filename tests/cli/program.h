@@ -15,6 +15,7 @@
 
 #include "base/canonical_json.h"
 #include "base/files.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 
@@ -24,20 +25,13 @@ struct Outcome {
   std::string errors;
 };
 
+/// The fake Blender brings no colour config of its own.
+inline const std::string kOcioConfig = "/usr/share/blender/datafiles/colormanagement/config.ocio";
+inline const std::string kFakeBlender = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
+
 /// A test with a folder of its own, which is the program's working directory.
 class ProgramTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              (std::string(info->test_suite_name()) + "." + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override {
-    if (!HasFailure()) std::filesystem::remove_all(folder_);
-  }
-
   /// Starts the program; `environment` are lines NAME=value.
   pid_t start(const std::vector<std::string>& arguments,
               const std::vector<std::string>& environment = {}) {
@@ -83,6 +77,24 @@ class ProgramTest : public ::testing::Test {
     ASSERT_TRUE(write_file(folder_ / name, text));
   }
 
+  /// A config, and the colour config that the fake Blender needs.
+  void write_config(const std::string& name, const std::string& text) {
+    write(name, text + "image: {ocio_config: " + kOcioConfig + "}\n");
+  }
+
+  /// The built-in asset `original` as own/part, which configs know as `part`.
+  void make_part(const std::string& original) {
+    const std::filesystem::path part = folder_ / "own/part";
+    std::filesystem::remove_all(part);
+    std::filesystem::create_directories(folder_ / "own");
+    std::filesystem::copy(SEEDFRAME_HOME "/assets/" + original, part,
+                          std::filesystem::copy_options::recursive);
+    std::string json = *read_file(part / "asset.json");
+    const std::string name = "\"name\": \"" + original + "\"";
+    json.replace(json.find(name), name.size(), R"("name": "part")");
+    write("own/part/asset.json", json);
+  }
+
   Json status(const std::string& campaign) {
     const Outcome outcome = run({"status", campaign, "--json"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
@@ -103,11 +115,8 @@ class ProgramTest : public ::testing::Test {
     return files;
   }
 
-  std::filesystem::path folder_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
-
-/// The fake Blender brings no colour config of its own.
-inline const std::string kOcioConfig = "/usr/share/blender/datafiles/colormanagement/config.ocio";
-inline const std::string kFakeBlender = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
 
 }  // namespace seedframe

@@ -18,7 +18,6 @@ using ::testing::HasSubstr;
 class SecurityTest : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     for (const char* name : {"mine", "other"}) fs::create_directories(folder_ / name);
     fs::copy(fs::path(SEEDFRAME_HOME) / "assets/gear", folder_ / "other/cog");
     fs::copy(fs::path(SEEDFRAME_HOME) / "assets/gear", folder_ / "mine/gear");
@@ -71,9 +70,7 @@ camera: {target: [0, 0, 0], distance_m: 0.3}
 TEST_F(SecurityTest, FoldersAreAllowedByTheUserAndRememberedForResume) {
   write("mine/scene.yaml", kLabels);
   // Outside of the config's folder and of the working directory, which is folder_/mine here.
-  const fs::path outside = fs::path(::testing::TempDir()) / "seedframe-security-outside";
-  fs::remove_all(outside);
-  fs::create_directories(outside);
+  const ScratchFolder outside;
   fs::rename(folder_ / "other/cog", outside / "cog");
   Json description = *parse_json(*read_file(outside / "cog/asset.json"), "asset.json");
   description["name"] = "cog";
@@ -84,7 +81,7 @@ TEST_F(SecurityTest, FoldersAreAllowedByTheUserAndRememberedForResume) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.errors,
               HasSubstr("mine/scene.yaml:5:17: asset_folders[0]: 'parts' leads to " +
-                        fs::canonical(outside).string()));
+                        fs::canonical(outside.path()).string()));
   EXPECT_FALSE(exists("c"));
   EXPECT_EQ(run({"check", "mine/scene.yaml"}).exit_code, 2);
   EXPECT_EQ(run({"check", "mine/scene.yaml", "--allow", outside}).exit_code, 0);

@@ -25,10 +25,7 @@ camera: {target: [0, 0, 0], distance_m: {uniform: [0.2, 0.5]}}
 
 class TwinCampaign : public ProgramTest {
  protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    write("twins.yaml", kTwins + ("image: {ocio_config: " + kOcioConfig + "}\n"));
-  }
+  void SetUp() override { write_config("twins.yaml", kTwins); }
   Outcome label(const std::string& folder, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments = {"submit", "twins.yaml",      "-o",        folder,
                                           "--set",  "labels=geometry", "--blender", "/no/blender"};

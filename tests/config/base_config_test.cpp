@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "config/campaign_config.h"
+#include "tests/fixtures/message_of.h"
 #include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
@@ -28,7 +29,7 @@ class BaseConfig : public ::testing::Test {
   }
   std::string error_of(const std::string& text) {
     const auto config = read(text);
-    return config ? "(no error)" : config.error().message;
+    return message_of(config);
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/fixtures/message_of.h"
+
 namespace seedframe {
 namespace {
 
@@ -14,7 +16,7 @@ camera: {distance_m: 1}
 
 std::string error_of(const std::string& text, const std::vector<Override>& overrides = {}) {
   const auto config = read_campaign_config(text, "scene.yaml", overrides);
-  return config ? "(no error)" : config.error().message;
+  return message_of(config);
 }
 
 TEST(CampaignConfig, TheSmallestConfigHasDefaults) {

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/fixtures/message_of.h"
+
 namespace seedframe {
 namespace {
 
@@ -17,7 +19,7 @@ Result<CampaignConfig> read_with(const std::string& more) {
 
 std::string refusal_of(const std::string& more) {
   const auto config = read_with(more);
-  return config ? "(no error)" : config.error().message;
+  return message_of(config);
 }
 
 TEST(DeterminismSection, IsOfTheMachineUnlessSaidOtherwise) {

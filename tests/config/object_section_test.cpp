@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "config/campaign_config.h"
+#include "tests/fixtures/message_of.h"
 
 namespace seedframe {
 namespace {
@@ -12,7 +13,7 @@ using ::testing::HasSubstr;
 
 std::string section_error(const std::string& text) {
   const auto config = read_campaign_config(text, "scene.yaml");
-  return config ? "(no error)" : config.error().message;
+  return message_of(config);
 }
 
 struct SectionCase {

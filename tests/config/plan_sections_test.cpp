@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "config/campaign_config.h"
+#include "tests/fixtures/message_of.h"
 
 namespace seedframe {
 namespace {
@@ -22,7 +23,7 @@ Result<CampaignConfig> read(const std::string& more) {
 
 std::string plan_error(const std::string& more) {
   const auto config = read(more);
-  return config ? "(no error)" : config.error().message;
+  return message_of(config);
 }
 
 struct PlanCase {

@@ -1,69 +1,18 @@
-// What holds for every format.
+// What holds for every format when it is written.
 #include "export/export_run.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../annotate/coco_decoder.h"
-#include "../annotate/yolo_decoder.h"
 #include "export/export_index.h"
-#include "export/verify.h"
-#include "formats/formats.h"
-#include "tests/export/synthetic_dataset.h"
+#include "tests/export/every_format.h"
 
 namespace seedframe {
 namespace {
 
-using ::testing::Contains;
 using ::testing::HasSubstr;
 
-const std::vector<std::string> kFormats = {
-    "coco",         "coco-polygon", "coco-keypoints", "coco-panoptic", "yolo-detect",
-    "yolo-segment", "yolo-obb",     "yolo-pose",      "voc",           "bop",
-    "patches",      "webdataset",   "statistics"};
-
-class EveryFormat : public ::testing::TestWithParam<std::string> {
- protected:
-  EveryFormat() : campaign_(scratch_.path() / "campaign") {
-    campaign_.dataset().seed = 2;
-    campaign_.add_ten_frames();
-    for (const char* name : {"bolt", "gear", "hidden", "nut", "rock"}) {
-      auto asset = std::make_shared<Asset>();
-      asset->name = name;
-      asset->mesh.positions = {{0, 0, 0}, {0.1F, 0, 0}, {0, 0.2F, 0}};
-      asset->mesh.triangles = {{0, 1, 2}};
-      campaign_.dataset().assets.push_back({asset, {}});
-    }
-  }
-
-  Result<ExportSummary> run(const ExportOptions& options) {
-    return export_one(campaign_.dataset(), GetParam(), options);
-  }
-  ExportOptions options() const { return {.output = output()}; }
-  ExportOptions split_options() const {
-    ExportOptions options{.output = output()};
-    options.splits = {{"train", 0.6}, {"val", 0.4}};
-    return options;
-  }
-  fs::path output() const { return scratch_.path() / "out"; }
-  fs::path folder() const { return output() / GetParam(); }
-  VerifySummary verified() {
-    const auto summary = verify_export(campaign_.dataset(), export_formats(), folder(), 2);
-    EXPECT_TRUE(summary) << summary.error().message;
-    return summary ? *summary : VerifySummary{};
-  }
-  bool is_reused() const { return GetParam() != "statistics"; }
-
-  ScratchFolder scratch_;
-  SyntheticDataset campaign_;
-};
-
-INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat, ::testing::ValuesIn(kFormats),
-                         [](const auto& param) {
-                           std::string name = param.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat, ::testing::ValuesIn(kFormats), name_of_format);
 
 TEST_P(EveryFormat, WritesTheSameBytesAgainAndElsewhere) {
   const ExportOptions first = split_options();
@@ -81,91 +30,6 @@ TEST_P(EveryFormat, WritesTheSameBytesAgainAndElsewhere) {
   for (const auto& [path, bytes] : files) {
     EXPECT_EQ(bytes.find(scratch_.path().string()), std::string::npos) << path;
   }
-}
-
-TEST_P(EveryFormat, IsWhatItWasMadeFrom) {
-  const auto summary = run(split_options());
-  ASSERT_TRUE(summary) << summary.error().message;
-  const VerifySummary found = verified();
-  EXPECT_EQ(found.frames, 10);
-  EXPECT_EQ(found.differences, 0) << ::testing::PrintToString(found.first_differences);
-}
-
-TEST_P(EveryFormat, ShowsAChangeOfAnyFile) {
-  ASSERT_TRUE(run(split_options()));
-  int changed = 0;
-  for (const auto& [path, bytes] : files_below(folder())) {
-    if (path == "seedframe.json" || path == "seedframe.index" || bytes.empty()) continue;
-    if (path.rfind("models", 0) == 0 || path == "data.yaml" || path == "classes.json" ||
-        path.find("labelmap") != std::string::npos) {
-      continue;  // of no frame
-    }
-    SCOPED_TRACE(path);
-    std::string other = bytes;
-    other[other.size() / 2] ^= 1;
-    ASSERT_TRUE(write_quickly(folder() / path, other));
-    EXPECT_GT(verified().differences, 0);
-    fs::remove(folder() / path);
-    EXPECT_GT(verified().differences, 0);
-    ASSERT_TRUE(write_quickly(folder() / path, bytes));
-    ++changed;
-  }
-  EXPECT_GE(changed, 1);
-  EXPECT_EQ(verified().differences, 0);
-  ASSERT_TRUE(write_quickly(folder() / "stray.txt", "not of this export"));
-  EXPECT_THAT(verified().first_differences, Contains(HasSubstr("belong to no frame")));
-}
-
-TEST_P(EveryFormat, ShowsSharedFilesOfNoFrame) {
-  ExportOptions three = options();
-  three.splits = {{"train", 1.0 - 1e-9}, {"val", 1e-9}};
-  ASSERT_TRUE(run(three));  // val is empty
-  EXPECT_EQ(verified().differences, 0);
-  for (const auto& [path, bytes] : files_below(folder())) {
-    const std::size_t split = path.find("train");
-    if (split == std::string::npos || path.find("seedframe") != std::string::npos) continue;
-    std::string other = path;
-    other.replace(split, 5, "val");
-    const auto before = read_file(folder() / other);
-    fs::create_directories((folder() / other).parent_path());
-    ASSERT_TRUE(write_quickly(folder() / other, bytes));
-    EXPECT_GT(verified().differences, 0) << other;
-    fs::remove(folder() / other);
-    if (before) {
-      ASSERT_TRUE(write_quickly(folder() / other, *before));
-    }
-  }
-  EXPECT_EQ(verified().differences, 0);
-}
-
-TEST_P(EveryFormat, ShowsFramesThatCameAndWent) {
-  ASSERT_TRUE(run(split_options()));
-  campaign_.add_frame(12, 6, SyntheticDataset::discs(12));
-  EXPECT_THAT(verified().first_differences, Contains(HasSubstr("frame 12: is not in the export")));
-  campaign_.frames().pop_back();
-  campaign_.frames().pop_back();
-  EXPECT_THAT(verified().first_differences,
-              Contains(HasSubstr("frame 10 is in the export, and not in the campaign")));
-}
-
-TEST_P(EveryFormat, ShowsFramesInAnotherSplit) {
-  ASSERT_TRUE(run(split_options()));
-  campaign_.dataset().seed = 3;  // draws other scenes into val
-  if (!is_reused()) {
-    EXPECT_THAT(verified().first_differences, Contains(HasSubstr("other numbers")));
-    return;
-  }
-  EXPECT_THAT(verified().first_differences, Contains(HasSubstr("belongs to another split")));
-}
-
-TEST_P(EveryFormat, ShowsFilesThatTheIndexDoesNotList) {
-  ASSERT_TRUE(run(split_options()));
-  std::string index = *read_file(folder() / kIndexFile);
-  const std::size_t files = index.find("\"files\":[[");
-  if (files == std::string::npos) return;  // of the formats without files of their own
-  index.erase(files + 9, index.find("]]", files) - files - 8);
-  ASSERT_TRUE(write_quickly(folder() / kIndexFile, index));
-  EXPECT_GT(verified().differences, 0);
 }
 
 TEST_P(EveryFormat, RedoesOnlyWhatChanged) {
@@ -397,112 +261,6 @@ TEST_P(EveryFormat, ReadsItsOptionsBackFromTheMarker) {
   EXPECT_EQ(marker->format, GetParam());
   EXPECT_EQ(marker->frames, 10);
   EXPECT_EQ(verified().differences, 0);
-}
-
-TEST(ExportFormats, KnowWhatWasMeant) {
-  std::vector<std::string> names;
-  for (const FormatEntry& format : export_formats()) {
-    names.emplace_back(format.name);
-    EXPECT_STRNE(format.description, "");
-    const auto found = find_format(export_formats(), format.name);
-    ASSERT_TRUE(found);
-    EXPECT_EQ(*found, &format);
-  }
-  EXPECT_EQ(names, kFormats);
-  const auto unknown = find_format(export_formats(), "yolo-detcet");
-  ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.error().kind, ErrorKind::kInput);
-  EXPECT_THAT(unknown.error().message, HasSubstr("did you mean 'yolo-detect'"));
-}
-
-/// One instance as a format tells it.
-struct Told {
-  int category = 0;
-  PixelRect box;
-  Bitmap mask;  ///< empty for detection
-};
-using ToldByFrame = std::map<std::int64_t, std::vector<Told>>;
-
-ToldByFrame told_by_coco(const fs::path& folder) {
-  const Json coco =
-      *parse_json(*read_file(folder / "annotations/instances_train.json"), "instances");
-  ToldByFrame told;
-  for (const Json& annotation : coco.at("annotations")) {
-    const auto box = annotation.at("bbox").get<std::array<int, 4>>();
-    const Json& segmentation = annotation.at("segmentation");
-    const Bitmap mask =
-        segmentation.is_array()
-            ? coco_decoder::bitmap_of_polygons(segmentation.get<std::vector<std::vector<double>>>(),
-                                               120, 160)
-            : coco_decoder::bitmap_of_runs(
-                  coco_decoder::runs_of_string(segmentation.at("counts").get<std::string>()), 120,
-                  160);
-    told[annotation.at("image_id").get<std::int64_t>() - 1].push_back(
-        {annotation.at("category_id").get<int>() - 1, {box[0], box[1], box[2], box[3]}, mask});
-  }
-  return told;
-}
-
-ToldByFrame told_by_yolo(const fs::path& folder, bool segments) {
-  ToldByFrame told;
-  for (const auto& entry : fs::directory_iterator(folder / "labels/train")) {
-    const std::int64_t index = std::stoll(entry.path().stem().string());
-    for (const auto& row : yolo_decoder::parse_rows(*read_file(entry.path()))) {
-      const auto box = segments ? yolo_decoder::box_of_polygon_row(row, 160, 120)
-                                : yolo_decoder::box_of_centre_row(row, 160, 120);
-      const int x = static_cast<int>(std::lround(box.x0));
-      const int y = static_cast<int>(std::lround(box.y0));
-      told[index].push_back({row.category,
-                             {x, y, static_cast<int>(std::lround(box.x1)) - x,
-                              static_cast<int>(std::lround(box.y1)) - y},
-                             segments ? yolo_decoder::bitmap_of_row(row, 160, 120) : Bitmap{}});
-    }
-  }
-  return told;
-}
-
-TEST(ExportFormats, TellTheSame) {
-  const ScratchFolder scratch;
-  SyntheticDataset campaign(scratch.path() / "campaign");
-  campaign.add_ten_frames();
-  ExportOptions options{.output = scratch.path() / "out"};
-  options.min_pixels = 20;
-  std::vector<std::int64_t> counts;
-  std::vector<const FormatEntry*> formats;
-  for (const char* name : {"coco", "coco-polygon", "yolo-detect", "yolo-segment"}) {
-    formats.push_back(*find_format(export_formats(), name));
-  }
-  const auto summaries = run_export(campaign.dataset(), formats, options);
-  ASSERT_TRUE(summaries) << summaries.error().message;
-  for (const ExportSummary& summary : *summaries) {
-    counts.push_back(at(summary.splits[0].counts, Count::kAnnotations));
-    EXPECT_GE(at(summary.splits[0].counts, Count::kTooSmall), 1);
-  }
-  EXPECT_GE(counts[0], 30);
-  EXPECT_THAT(counts, ::testing::ElementsAre(counts[0], counts[0], counts[0], counts[0]));
-
-  ToldByFrame rle = told_by_coco(options.output / "coco");
-  ToldByFrame polygon = told_by_coco(options.output / "coco-polygon");
-  ToldByFrame detect = told_by_yolo(options.output / "yolo-detect", false);
-  ToldByFrame segment = told_by_yolo(options.output / "yolo-segment", true);
-  std::int64_t compared = 0;
-  for (const auto& [index, instances] : rle) {
-    SCOPED_TRACE(index);
-    ASSERT_EQ(polygon[index].size(), instances.size());
-    ASSERT_EQ(detect[index].size(), instances.size());
-    ASSERT_EQ(segment[index].size(), instances.size());
-    for (std::size_t i = 0; i < instances.size(); ++i, ++compared) {
-      const Told& told = instances[i];
-      for (const ToldByFrame* other : {&polygon, &detect, &segment}) {
-        EXPECT_EQ(other->at(index)[i].category, told.category);
-        EXPECT_EQ(other->at(index)[i].box, told.box);
-      }
-      EXPECT_EQ(polygon[index][i].mask.values, told.mask.values);
-      const Difference wrong = difference(segment[index][i].mask, told.mask);
-      EXPECT_LE(wrong.lost + wrong.added, shortest_bridges(told.mask));  // 0 for one part
-    }
-  }
-  EXPECT_EQ(compared, counts[0]);
 }
 
 }  // namespace

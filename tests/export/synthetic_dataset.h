@@ -10,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include "../annotate/mask_cases.h"
 #include "annotate/rle.h"
 #include "base/canonical_json.h"
 #include "base/files.h"
@@ -20,7 +19,7 @@
 #include "frames/campaign_files.h"
 #include "frames/manifest.h"
 #include "image/png_file.h"
-#include "tests/fixtures/scratch_folder.h"
+#include "tests/annotate/mask_cases.h"
 
 namespace seedframe {
 

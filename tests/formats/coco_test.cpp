@@ -5,9 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../annotate/coco_decoder.h"
 #include "export/split.h"
+#include "tests/annotate/coco_decoder.h"
 #include "tests/export/synthetic_dataset.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {

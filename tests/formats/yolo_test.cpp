@@ -6,9 +6,10 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
-#include "../annotate/yolo_decoder.h"
 #include "export/split.h"
+#include "tests/annotate/yolo_decoder.h"
 #include "tests/export/synthetic_dataset.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {

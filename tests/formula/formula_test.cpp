@@ -7,6 +7,7 @@
 
 #include "base/portable_math.h"
 #include "formula/formula_functions.h"
+#include "tests/fixtures/message_of.h"
 
 namespace seedframe {
 namespace {
@@ -35,7 +36,7 @@ Dimension dimension_of(const std::string& text, const Scope& scope = {}) {
 
 std::string formula_error(const std::string& text, const Scope& scope = {}) {
   const auto formula = CompiledFormula::compile(text, scope);
-  return formula ? "(no error)" : formula.error().message;
+  return message_of(formula);
 }
 
 void expect_vector(const std::string& text, const Eigen::Vector3d& expected,

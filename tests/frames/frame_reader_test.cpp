@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/export/synthetic_dataset.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {

@@ -6,6 +6,8 @@
 #include "base/files.h"
 #include "base/sha256.h"
 #include "frames/campaign_files.h"
+#include "tests/fixtures/message_of.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -16,11 +18,6 @@ using ::testing::HasSubstr;
 class ManifestTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              (std::string("manifest.") +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     ASSERT_TRUE(write_file(folder_ / frame_files::kImage, "pixels"));
     ASSERT_TRUE(write_file(folder_ / frame_files::kLabels, "{}"));
     manifest_.frame_id = std::string(64, 'f');
@@ -30,14 +27,13 @@ class ManifestTest : public ::testing::Test {
     text_ = readable_json(to_json(manifest_));
     ASSERT_TRUE(write_file(folder_ / frame_files::kManifest, text_));
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string error_of(VerifyDepth depth) const {
     const auto verified = verify_frame(folder_, manifest_.frame_id, depth);
-    return verified ? "(no error)" : verified.error().message;
+    return message_of(verified);
   }
 
-  fs::path folder_;
+  ScratchFolder folder_;
   Manifest manifest_;
   std::string text_;
 };

@@ -10,7 +10,7 @@
 
 #include "base/files.h"
 #include "base/sha256.h"
-#include "tests/image/test_folder.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -56,7 +56,7 @@ class ColorManagementTest : public testing::Test {
     return std::move(*loaded);
   }
 
-  TestFolder folder_;
+  ScratchFolder folder_;
 };
 
 Image<float> pixel(float red, float green, float blue) {

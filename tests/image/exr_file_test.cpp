@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "tests/image/test_folder.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -35,7 +35,7 @@ std::vector<float> read_channel(const std::filesystem::path& path, const char* n
 }
 
 TEST(ExrFile, ChannelsComeBackBitForBit) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image<float> image = ramp(37, 21, 3);
   ASSERT_TRUE(write_exr(folder / "normal.exr", image, {"X", "Y", "Z"}));
   const std::vector<float> y = read_channel(folder / "normal.exr", "Y");
@@ -48,7 +48,7 @@ TEST(ExrFile, ChannelsComeBackBitForBit) {
 }
 
 TEST(ExrFile, ABackgroundOf1e10ComesBack) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   Image<float> depth(2, 1);
   depth.values = {1e10F, 2.5F};
   ASSERT_TRUE(write_exr(folder / "depth.exr", depth, {"Z"}));
@@ -56,7 +56,7 @@ TEST(ExrFile, ABackgroundOf1e10ComesBack) {
 }
 
 TEST(ExrFile, TheSamePixelsGiveTheSameBytesWithoutDateOrHost) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(write_exr(folder / "a.exr", ramp(16, 16, 1), {"Z"}));
   ASSERT_TRUE(write_exr(folder / "b.exr", ramp(16, 16, 1), {"Z"}));
   const std::string bytes = *read_file(folder / "a.exr");
@@ -67,7 +67,7 @@ TEST(ExrFile, TheSamePixelsGiveTheSameBytesWithoutDateOrHost) {
 }
 
 TEST(ExrFile, AFolderThatIsNotThereIsAnError) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Status written = write_exr(folder / "none" / "depth.exr", ramp(2, 2, 1), {"Z"});
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, ErrorKind::kEnvironment);
@@ -81,7 +81,7 @@ TEST(ExrFile, AFullDiskIsAnErrorEvenForTheLastBytes) {
 }
 
 TEST(ExrFile, AChannelComesBack) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   Image<float> depth(7, 5);
   for (std::size_t i = 0; i < depth.values.size(); ++i)
     depth.values[i] = 0.1F * static_cast<float>(i);

@@ -10,15 +10,15 @@
 #include "image/exr_file.h"
 #include "image/exr_metadata.h"
 #include "image/pass_reader.h"
+#include "tests/fixtures/scratch_folder.h"
 #include "tests/image/exr_writer.h"
-#include "tests/image/test_folder.h"
 
 namespace seedframe {
 namespace {
 
 using testing::HasSubstr;
 
-std::string good_file(const TestFolder& folder) {
+std::string good_file(const ScratchFolder& folder) {
   blender_exr().write(folder / "good.exr");
   return *read_file(folder / "good.exr");
 }
@@ -39,21 +39,21 @@ const std::string kChannels("channels\0chlist", 15);
 const std::string kDataWindow("dataWindow\0box2i", 16);
 
 TEST(ExrInput, AFileOfOpenExrHasNoFault) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const std::string bytes = good_file(folder);
   EXPECT_EQ(exr_header_fault(bytes), nullptr);
 }
 
 // OpenEXR would read one byte, and take what follows for the next attribute.
 TEST(ExrInput, AnAttributeMustHaveTheLengthOfItsType) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const std::string longer =
       with_attribute(good_file(folder), kCompression, 3, std::string(3, '\0'));
   EXPECT_THAT(exr_header_fault(longer), HasSubstr("length of its type"));
 }
 
 TEST(ExrInput, AListOfChannelsMustFillItsAttribute) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const std::string bytes = good_file(folder);
   const std::string short_list = with_attribute(bytes, kChannels, 3, std::string("R\0\0", 3));
   EXPECT_THAT(exr_header_fault(short_list), HasSubstr("list of channels"));
@@ -62,14 +62,14 @@ TEST(ExrInput, AListOfChannelsMustFillItsAttribute) {
 }
 
 TEST(ExrInput, AnAttributeMustEndInTheFile) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const std::string bytes = with_attribute(good_file(folder), kChannels, 0x7fffffff);
   EXPECT_THAT(exr_header_fault(bytes), HasSubstr("longer than the file"));
 }
 
 // 2 GB of pixels and more, of a file of a few hundred bytes: an error before there is memory.
 TEST(ExrInput, MorePixelsThanAFileCanHoldAreRefused) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(write_exr(folder / "depth.exr", Image<float>(4, 3), {"Z"}));
   const std::string bytes = *read_file(folder / "depth.exr");
   for (const auto& [x, y] :
@@ -86,7 +86,7 @@ TEST(ExrInput, MorePixelsThanAFileCanHoldAreRefused) {
 
 // OpenEXR would take the missing half of every line from memory that nobody wrote.
 TEST(ExrInput, BlocksMustHoldTheValuesOfTheirChannels) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   for (const auto compression :
        {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION}) {
     ExrFile file = blender_exr(40, 40);
@@ -106,7 +106,7 @@ TEST(ExrInput, BlocksMustHoldTheValuesOfTheirChannels) {
 }
 
 TEST(ExrInput, AFlatImageMayBeCompressedAsFarAsZipGoes) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(write_exr(folder / "flat.exr", Image<float>(2000, 2000), {"Z"}));
   EXPECT_TRUE(read_exr_channel(folder / "flat.exr", "Z"));
 }

@@ -7,8 +7,8 @@
 
 #include "base/files.h"
 #include "image/pixel_hash.h"
+#include "tests/fixtures/scratch_folder.h"
 #include "tests/image/exr_writer.h"
-#include "tests/image/test_folder.h"
 
 namespace seedframe {
 namespace {
@@ -47,7 +47,7 @@ class PassReader : public testing::Test {
     return *read_file(path_);
   }
 
-  TestFolder folder_;
+  ScratchFolder folder_;
   std::filesystem::path path_ = folder_ / "passes.exr";
 };
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "tests/image/test_folder.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -24,7 +24,7 @@ Image<T> textured(int width, int height, int channels) {
 }
 
 TEST(PngFile, EightBitGreyComesBack) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const auto image = textured<std::uint8_t>(17, 5, 1);
   ASSERT_TRUE(write_file(folder / "a.png", encode_png(image)));
   const auto back = read_png8(folder / "a.png");
@@ -36,7 +36,7 @@ TEST(PngFile, EightBitGreyComesBack) {
 }
 
 TEST(PngFile, RgbComesBack) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const auto image = textured<std::uint8_t>(5, 17, 3);
   ASSERT_TRUE(write_file(folder / "a.png", encode_png(image)));
   const auto back = read_png8(folder / "a.png");
@@ -46,7 +46,7 @@ TEST(PngFile, RgbComesBack) {
 }
 
 TEST(PngFile, SixteenBitIdsComeBackExactly) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   Image<std::uint16_t> ids(4, 2);
   ids.values = {0, 1, 255, 256, 257, 32767, 65534, 65535};
   ASSERT_TRUE(write_file(folder / "a.png", encode_png(ids)));
@@ -56,7 +56,7 @@ TEST(PngFile, SixteenBitIdsComeBackExactly) {
 }
 
 TEST(PngFile, ALargeFlatPictureComesBack) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image<std::uint16_t> empty(2000, 1500);
   ASSERT_TRUE(write_file(folder / "a.png", encode_png(empty)));
   const auto back = read_png16(folder / "a.png");
@@ -81,7 +81,7 @@ TEST(PngFile, HoldsNothingButThePicture) {
 }
 
 TEST(PngFile, EveryTruncationIsAnErrorThatNamesTheFile) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const std::string whole = encode_png(textured<std::uint8_t>(9, 7, 3));
   for (std::size_t length = 0; length < whole.size(); ++length) {
     ASSERT_TRUE(write_file(folder / "cut.png", std::string_view(whole).substr(0, length)));
@@ -93,7 +93,7 @@ TEST(PngFile, EveryTruncationIsAnErrorThatNamesTheFile) {
 }
 
 TEST(PngFile, EveryFlippedByteIsAnError) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const std::string whole = encode_png(textured<std::uint16_t>(6, 5, 1));
   for (std::size_t at = 0; at < whole.size(); ++at) {
     std::string flipped = whole;
@@ -104,7 +104,7 @@ TEST(PngFile, EveryFlippedByteIsAnError) {
 }
 
 TEST(PngFile, BytesBehindTheEndAreAnError) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(write_file(folder / "a.png", encode_png(Image<std::uint8_t>(2, 2)) + "x"));
   const auto image = read_png8(folder / "a.png");
   ASSERT_FALSE(image);
@@ -112,7 +112,7 @@ TEST(PngFile, BytesBehindTheEndAreAnError) {
 }
 
 TEST(PngFile, AnotherDepthIsAnErrorThatSaysWhatWasFound) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(write_file(folder / "8.png", encode_png(Image<std::uint8_t>(2, 2))));
   ASSERT_TRUE(write_file(folder / "16.png", encode_png(Image<std::uint16_t>(2, 2))));
   ASSERT_TRUE(write_file(folder / "rgb.png", encode_png(Image<std::uint8_t>(2, 2, 3))));
@@ -124,7 +124,7 @@ TEST(PngFile, AnotherDepthIsAnErrorThatSaysWhatWasFound) {
 }
 
 TEST(PngFile, AMissingFileIsAnError) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const auto image = read_png8(folder / "none.png");
   ASSERT_FALSE(image);
   EXPECT_EQ(image.error().kind, ErrorKind::kCorrupt);
@@ -133,7 +133,7 @@ TEST(PngFile, AMissingFileIsAnError) {
 
 // A header that promises 900,000 x 900,000 pixels, with a right checksum.
 TEST(PngFile, ASizeThatTheFileCannotHoldIsRefusedBeforeItGetsMemory) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   std::string file = encode_png(Image<std::uint8_t>(2, 2));
   const std::string side("\x00\x0d\xbb\xa0", 4);
   file.replace(16, 4, side);

@@ -15,6 +15,7 @@
 #include "base/canonical_json.h"
 #include "render/worker_pool.h"
 #include "spec/frame_spec.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 
@@ -109,10 +110,7 @@ class RecordingClient : public RenderClient {
 
 class PoolTest : public testing::Test {
  protected:
-  PoolTest()
-      : folder(std::filesystem::path(testing::TempDir()) / fmt::format("pool-{}", getpid())) {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
+  PoolTest() {
     client = std::make_unique<RecordingClient>(folder);
     options.worker.blender = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
     options.worker.scripts = SEEDFRAME_HOME "/blender_scripts";
@@ -122,7 +120,6 @@ class PoolTest : public testing::Test {
     // Long enough for a busy machine: only a test that wants a timeout sets a short one.
     options.frame_timeout = std::chrono::seconds(60);
   }
-  ~PoolTest() override { std::filesystem::remove_all(folder); }
 
   /// `wishes` is SEEDFRAME_FAKE without the log of starts.
   void make_pool(Json wishes = Json::object()) {
@@ -157,7 +154,7 @@ class PoolTest : public testing::Test {
     for (const pid_t pid : workers_started()) EXPECT_FALSE(is_alive(pid)) << pid;
   }
 
-  std::filesystem::path folder;
+  ScratchFolder folder;
   PoolOptions options;
   std::unique_ptr<RecordingClient> client;
   std::unique_ptr<WorkerPool> pool;

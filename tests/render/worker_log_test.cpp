@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -11,13 +12,8 @@ namespace fs = std::filesystem;
 
 class WorkerLogTest : public testing::Test {
  protected:
-  WorkerLogTest() : folder_(fs::path(testing::TempDir()) / "worker_log_test") {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~WorkerLogTest() override { fs::remove_all(folder_); }
   fs::path path() const { return folder_ / "w.log"; }
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(WorkerLogTest, AppendsToWhatIsThere) {

@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "formula/formula.h"
 #include "formula/formula_functions.h"
+#include "tests/fixtures/message_of.h"
 #include "tests/fixtures/scratch_folder.h"
 #include "tests/scene/scene_fixture.h"
 
@@ -37,7 +38,7 @@ class HostileMaterials : public ::testing::Test {
     auto expander = SceneExpander::compile(*config, built_in_assets(), *materials);
     if (!expander) return expander.error().message;
     const auto frame = expander->expand(0);
-    return frame ? "(no error)" : frame.error().message;
+    return message_of(frame);
   }
   void replace_by_link(const std::string& name, const fs::path& target) const {
     fs::remove_all(folder_ / name);

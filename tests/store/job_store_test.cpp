@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -16,15 +17,6 @@ using ::testing::HasSubstr;
 
 class JobStoreTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    path_ = folder_ / "campaign.sqlite";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   JobStore store_with(std::int64_t frames) {
     auto store = JobStore::create(path_);
     EXPECT_TRUE(store) << store.error().message;
@@ -40,8 +32,8 @@ class JobStoreTest : public ::testing::Test {
     return std::move(*store);
   }
 
-  fs::path folder_;
-  fs::path path_;
+  const ScratchFolder folder_;
+  const fs::path path_ = folder_ / "campaign.sqlite";
 };
 
 TEST_F(JobStoreTest, NewFramesArePending) {

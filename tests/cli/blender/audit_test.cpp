@@ -32,7 +32,6 @@ camera: {distance_m: {uniform: [0.3, 0.5]}, azimuth_deg: {uniform: [0, 360]}}
 class RealBlenderAudit : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     make_part("cube");
     const fs::path textures = folder_ / "textures/Painted";
     fs::create_directories(textures);
@@ -41,18 +40,7 @@ class RealBlenderAudit : public ProgramTest {
                         ("Concrete01" + std::string(map)),
                     textures / ("Painted" + std::string(map)));
     }
-    write("audited.yaml", kAudited + ("image: {ocio_config: " + kOcioConfig + "}\n"));
-  }
-  /// The asset "part", from a built-in one.
-  void make_part(const std::string& original) {
-    const fs::path part = folder_ / "own/part";
-    fs::remove_all(part);
-    fs::create_directories(folder_ / "own");
-    fs::copy(fs::path(SEEDFRAME_HOME) / "assets" / original, part, fs::copy_options::recursive);
-    std::string json = *read_file(part / "asset.json");
-    const std::string name = "\"name\": \"" + original + "\"";
-    json.replace(json.find(name), name.size(), R"("name": "part")");
-    write("own/part/asset.json", json);
+    write_config("audited.yaml", kAudited);
   }
   Outcome submit(std::vector<std::string> more = {},
                  const std::vector<std::string>& environment = {}) {

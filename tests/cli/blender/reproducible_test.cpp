@@ -47,8 +47,7 @@ camera: {target: [0, 0, 0], distance_m: {uniform: [0.3, 0.5]}, azimuth_deg: {uni
 class RealBlenderCampaign : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
-    write("real.yaml", kConfig + ("image: {ocio_config: " + kOcioConfig + "}\n"));
+    write_config("real.yaml", kConfig);
     // Blender, and a line for each of its starts.
     write("blender.sh", "#!/bin/sh\n[ \"$1\" = --version ] || echo start >> " +
                             (folder_ / "starts.txt").string() + "\nexec blender \"$@\"\n");

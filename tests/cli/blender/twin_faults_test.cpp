@@ -46,7 +46,7 @@ class RealBlenderFault : public ProgramTest {
     ASSERT_NE(at, std::string::npos) << fault.was;
     text.replace(at, std::string(fault.was).size(), fault.is);
     ASSERT_TRUE(write_file(home / "blender_scripts" / fault.script, text));
-    write("faulty.yaml", kFaulty + ("image: {ocio_config: " + kOcioConfig + "}\n"));
+    write_config("faulty.yaml", kFaulty);
   }
   Outcome submit() {
     return run({"submit", "faulty.yaml", "-o", "c", "--workers", "1", "--max-attempts", "1"},

@@ -15,6 +15,7 @@
 #include "base/files.h"
 #include "image/pass_reader.h"
 #include "image/png_file.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -37,8 +38,8 @@ struct Reference {
 class RealBlenderColor : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = fs::path(testing::TempDir()) / fmt::format("RealBlenderColor.{}", ::getpid());
-    fs::create_directories(folder_);
+    scratch_ = new ScratchFolder;
+    folder_ = scratch_->path();
     const fs::path script =
         fs::path(SEEDFRAME_HOME) / "tests" / "image" / "blender" / "color_reference.py";
     const std::string command = fmt::format(
@@ -53,8 +54,7 @@ class RealBlenderColor : public testing::Test {
   static void TearDownTestSuite() {
     delete passes_;
     passes_ = nullptr;
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
+    delete scratch_;
   }
 
   static std::vector<Reference> references() {
@@ -77,6 +77,7 @@ class RealBlenderColor : public testing::Test {
     return all;
   }
 
+  static inline ScratchFolder* scratch_ = nullptr;
   static inline fs::path folder_;
   static inline FramePasses* passes_ = nullptr;
 };

@@ -22,6 +22,7 @@
 #include "render/blender_info.h"
 #include "render/worker_pool.h"
 #include "spec/frame_spec.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 
@@ -86,15 +87,11 @@ inline Affine placed(double x, double y, double z, double scale = 1.0, double tu
 
 class RealBlender : public testing::Test, public RenderClient {
  protected:
-  RealBlender()
-      : folder(std::filesystem::path(testing::TempDir()) / fmt::format("blender-{}", getpid())) {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
+  RealBlender() {
     smooth = add_mesh(sphere_buffer(12, 1, 3.2F));
     flat = add_mesh(sphere_buffer(8, 1, 0.0F));
     halves = add_mesh(sphere_buffer(10, 2, 0.3F));
   }
-  ~RealBlender() override { std::filesystem::remove_all(folder); }
 
   std::string add_mesh(const std::string& bytes) {
     const std::string name = sha256_hex(bytes);
@@ -218,7 +215,7 @@ class RealBlender : public testing::Test, public RenderClient {
   }
   void worker_ready(int, const ReadyMessage& message) override { ready = message; }
 
-  std::filesystem::path folder;
+  ScratchFolder folder;
   std::map<std::string, std::filesystem::path> meshes, textures;
   std::string smooth, flat, halves;
   std::map<std::int64_t, FrameSpec> specs;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
 namespace {
@@ -16,8 +17,7 @@ TEST(RealBlenderStudy, TheSameIsIdenticalAndOtherKernelsAreNot) {
   ASSERT_TRUE(blender) << blender.error().message;
   const auto color = ColorManagement::load(kOcio);
   ASSERT_TRUE(color);
-  const auto scratch = std::filesystem::path(::testing::TempDir()) / "seedframe-study";
-  std::filesystem::remove_all(scratch);
+  const ScratchFolder scratch;
   const auto program = std::filesystem::path(SEEDFRAME_PROGRAM);
   Study study({*blender, std::filesystem::path(SEEDFRAME_HOME) / "blender_scripts",
                program.parent_path() / "seedframe_worker_cpu.so", scratch, 64, 48},
