@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Holds CMakeLists.txt's list of modules against what the sources include, and the sources against the house's limits.
+"""Holds the lists of modules and of tests in CMake against what the sources include, and the sources against the
+house's limits.
 
 A module may include what is named behind it, headers only what is behind PUBLIC, and nothing may be named there that
-no file needs. No module has more than 40 files, no file of ours more than 400 lines. Exits with 1 and a line for each
-finding.
+no file needs. A test may include its module, what that has behind PUBLIC, and what is named behind the test. No module
+has more than 40 files, no file of ours more than 400 lines. Exits with 1 and a line for each finding.
 """
 
 import pathlib
@@ -14,23 +15,24 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MOST_FILES = 40
 MOST_LINES = 400
-KINDS = ("PUBLIC", "PRIVATE", "LIBRARIES", "PRIVATE_LIBRARIES")
+MODULE_KINDS = ("PUBLIC", "PRIVATE", "LIBRARIES", "PRIVATE_LIBRARIES")
+TEST_KINDS = ("USES", "BLENDER_USES", "LIBRARIES")
 
 
-def declared_modules():
-    """Name -> {"PUBLIC": set, "PRIVATE": set}, as CMakeLists.txt has them."""
-    modules = {}
-    for call in re.findall(r"^seedframe_module\(([^)]*)\)", (ROOT / "CMakeLists.txt").read_text(), re.M):
+def declared(file, function, kinds):
+    """The calls of a CMake function: name -> {kind: set of words}."""
+    found = {}
+    for call in re.findall(rf"^{function}\(([^)]*)\)", (ROOT / file).read_text(), re.M):
         words = call.split()
-        uses = {kind: set() for kind in KINDS}
+        uses = {kind: set() for kind in kinds}
         kind = None
         for word in words[1:]:
-            if word in KINDS:
+            if word in kinds:
                 kind = word
             else:
                 uses[kind].add(word)
-        modules[words[0]] = uses
-    return modules
+        found[words[0]] = uses
+    return found
 
 
 def included_modules(file):
@@ -51,19 +53,54 @@ def edge_faults(name, uses, files):
         yield f"CMakeLists.txt: {name} names {module}, and none of its files needs it"
 
 
+def public_modules(module, modules):
+    """The module, and what its headers lead to."""
+    found = {module} & set(modules)
+    for used in modules.get(module, {"PUBLIC": ()})["PUBLIC"]:
+        found |= public_modules(used, modules)
+    return found
+
+
+def included_with_fixtures(files):
+    """The modules that these files of tests include, and the headers of tests that they include."""
+    found, seen, waiting = set(), set(), list(files)
+    while waiting:
+        file = waiting.pop()
+        if file not in seen:
+            seen.add(file)
+            found |= included_modules(file)
+            waiting += [ROOT / header for header in re.findall(r'^#include "(tests/[^"]+)"', file.read_text(), re.M)]
+    return found
+
+
+def test_faults(name, uses, modules):
+    for kind, folder in (("USES", ROOT / "tests" / name), ("BLENDER_USES", ROOT / "tests" / name / "blender")):
+        needed = included_with_fixtures(folder.glob("*.cpp")) & set(modules)
+        for module in sorted(needed - set().union(*(public_modules(used, modules) for used in {name} | uses[kind]))):
+            yield f"tests/CMakeLists.txt: {folder.relative_to(ROOT)} includes {module}, which is not behind {kind}"
+        for module in sorted(uses[kind] - needed):
+            yield f"tests/CMakeLists.txt: {name} has {module} behind {kind}, and no test needs it"
+
+
 def tracked_files(*patterns):
     listed = subprocess.run(["git", "ls-files", *patterns], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     return [ROOT / line for line in listed.splitlines() if (ROOT / line).exists()]
 
 
 def faults():
-    modules = declared_modules()
+    modules = declared("CMakeLists.txt", "seedframe_module", MODULE_KINDS)
+    tests = declared("tests/CMakeLists.txt", "seedframe_test", TEST_KINDS)
     folders = {path.name for path in (ROOT / "scheduler").iterdir() if path.is_dir()}
     for name in sorted(folders - set(modules) - {"cli"}):
         yield f"CMakeLists.txt: there is no seedframe_module for scheduler/{name}"
     for name, uses in modules.items():
         files = sorted((ROOT / "scheduler" / name).glob("*.*"))
         yield from edge_faults(name, uses, files)
+    tested = {path.parent.name for path in (ROOT / "tests").glob("*/*_test.cpp")}
+    for name in sorted(tested - set(tests)):
+        yield f"tests/CMakeLists.txt: there is no seedframe_test for tests/{name}"
+    for name, uses in tests.items():
+        yield from test_faults(name, uses, modules)
     for name in sorted(folders):
         count = len(list((ROOT / "scheduler" / name).glob("*.*")))
         if count > MOST_FILES:
