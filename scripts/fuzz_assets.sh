@@ -4,15 +4,15 @@
 #
 #   scripts/fuzz_assets.sh [RUNS [SEED]]    100000 runs of each kind, seed 1; half an hour
 #
-# TEST: a test_geometry that is built already.
+# TEST: a test_mesh_files that is built already.
 set -eu
 cd "$(dirname "$0")/.."
 runs=${1:-100000}
 seed=${2:-1}
 if [ -z "${TEST:-}" ]; then
   [ -f build/asan-ubsan/build.ninja ] || cmake --preset asan-ubsan >/dev/null
-  ninja --quiet -C build/asan-ubsan test_geometry
-  TEST=build/asan-ubsan/tests/test_geometry
+  ninja --quiet -C build/asan-ubsan test_mesh_files
+  TEST=build/asan-ubsan/tests/test_mesh_files
 fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT

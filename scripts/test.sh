@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs what is missing, builds, and runs every test: format and lint, the unit tests (also under
-# AddressSanitizer and UndefinedBehaviorSanitizer), and the tests with the real Blender.
+# Installs what is missing, builds, and runs every test: format, module edges and lint, the unit tests
+# (also under AddressSanitizer and UndefinedBehaviorSanitizer), and the tests with the real Blender.
 #
 #   scripts/test.sh         all
 #   scripts/test.sh unit    unit tests of the release build only
@@ -25,13 +25,10 @@ step() { # name, command: one check that counts as one test
   echo "== $name"
   if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $name"; fi
 }
-build() { # preset, targets
-  preset=$1
-  shift
-  { [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" >/dev/null; } &&
-    ninja --quiet -C "build/$preset" "$@"
+configure() { # preset
+  [ -f "build/$1/build.ninja" ] || cmake --preset "$1" >/dev/null
 }
-run_tests() { # preset, label
+run_tests() { # preset, label, how many at once
   log=$(mktemp)
   ctest --test-dir "build/$1" -L "$2" --output-on-failure -j "$3" 2>&1 |
     tee "$log" | grep -vE '^ *(Start +[0-9]+:|[0-9]+/[0-9]+ Test +#.* Passed)'
@@ -39,23 +36,37 @@ run_tests() { # preset, label
   rm -f "$log"
 }
 
-cores=$(nproc)
-if ! build release all; then
+# More at once than there are cores: many tests wait for a process or for a timeout to pass.
+at_once=$(($(nproc) * 3 / 2))
+if ! configure release || ! ninja --quiet -C build/release all; then
   echo "0 passed, 1 failed"
   exit 1
 fi
+if [ "$what" = all ]; then
+  # Built meanwhile of what the other steps leave idle.
+  sanitized_log=$(mktemp)
+  {
+    configure asan-ubsan &&
+      exec nice -n 19 ninja --quiet -j "$(nproc)" -C build/asan-ubsan unit_tests
+  } >"$sanitized_log" 2>&1 &
+  sanitized=$!
+  trap 'kill "$sanitized" 2>/dev/null; rm -f "$sanitized_log"' EXIT
+  trap 'exit 130' INT TERM
+fi
 echo "== unit tests"
-run_tests release unit "$cores"
+run_tests release unit "$at_once"
 if [ "$what" = all ]; then
   step "format (clang-format)" sh -c \
     'git ls-files "*.cpp" "*.h" | xargs clang-format --dry-run --Werror'
+  step "module edges and sizes" scripts/check_modules.py
   step "lint (clang-tidy)" scripts/lint.sh
   echo "== tests with the real Blender"
-  run_tests release blender 1
+  run_tests release blender "$(nproc)"
   echo "== unit tests under AddressSanitizer and UndefinedBehaviorSanitizer"
-  if build asan-ubsan unit_tests; then
-    run_tests asan-ubsan unit "$cores"
+  if wait "$sanitized"; then
+    run_tests asan-ubsan unit "$at_once"
   else
+    cat "$sanitized_log"
     failed=$((failed + 1))
   fi
 fi
