@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.h"
+#include "tests/fixtures/script.h"
 
 namespace seedframe {
 namespace {
@@ -97,8 +98,7 @@ TEST_F(BadInputTest, Blenders) {
   const Outcome missing = run({"submit", "scene.yaml", "-o", "c", "--blender", "/no/blender"});
   EXPECT_EQ(missing.exit_code, 4);
   EXPECT_THAT(missing.errors, HasSubstr("--blender"));
-  write("old_blender", "#!/bin/sh\necho Blender 2.93.4\n");
-  std::filesystem::permissions(folder_ / "old_blender", std::filesystem::perms::owner_all);
+  write_script(folder_ / "old_blender", "#!/bin/sh\necho Blender 2.93.4\n");
   const Outcome old = run({"submit", "scene.yaml", "-o", "c", "--blender", "./old_blender"});
   EXPECT_EQ(old.exit_code, 4);
   EXPECT_THAT(old.errors, HasSubstr("3.3"));
@@ -107,8 +107,7 @@ TEST_F(BadInputTest, Blenders) {
 
 TEST_F(BadInputTest, ABlenderThatIsNotTestedIsSaidSoAndNotRefused) {
   write_config("scene.yaml", with_object("{asset: gear}"));
-  write("new_blender", "#!/bin/sh\necho Blender 4.2.1 LTS\n");
-  std::filesystem::permissions(folder_ / "new_blender", std::filesystem::perms::owner_all);
+  write_script(folder_ / "new_blender", "#!/bin/sh\necho Blender 4.2.1 LTS\n");
   const Outcome outcome =
       run({"submit", "scene.yaml", "-o", "c", "--dry-run", "--blender", "./new_blender"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;

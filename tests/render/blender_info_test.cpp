@@ -1,10 +1,12 @@
 #include "render/blender_info.h"
 
 #include <filesystem>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/fixtures/scratch_folder.h"
+#include "tests/fixtures/script.h"
 
 namespace seedframe {
 namespace {
@@ -13,13 +15,6 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 const std::string kFake = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
-
-fs::path script(const std::string& name, const std::string& text) {
-  const fs::path path = fs::path(testing::TempDir()) / name;
-  std::ofstream(path) << text;
-  fs::permissions(path, fs::perms::owner_all);
-  return path;
-}
 
 TEST(BlenderInfo, ReadsVersions) {
   const auto info = parse_blender_version("Blender 3.4.1\n\tbuild date: 2023-01-21\n");
@@ -60,15 +55,17 @@ TEST(BlenderInfo, SaysWhatToDoWhenThereIsNone) {
 }
 
 TEST(BlenderInfo, AFileThatMayNotBeExecutedIsNoProgram) {
-  const fs::path path = script("not-executable", "#!/bin/sh\n");
+  const ScratchFolder folder;
+  const fs::path path = write_script(folder / "not-executable", "#!/bin/sh\n");
   fs::permissions(path, fs::perms::owner_read);
   EXPECT_THAT(probe_blender(path.string()).error().message, HasSubstr("may be executed"));
-  EXPECT_FALSE(probe_blender(testing::TempDir()));
+  EXPECT_FALSE(probe_blender(folder.string()));
 }
 
 TEST(BlenderInfo, AProgramThatFailsIsAnErrorWithItsOutput) {
-  const fs::path path =
-      script("broken-blender", "#!/bin/sh\necho libfoo.so is missing >&2; exit 127\n");
+  const ScratchFolder folder;
+  const fs::path path = write_script(folder / "broken-blender",
+                                     "#!/bin/sh\necho libfoo.so is missing >&2; exit 127\n");
   const auto info = probe_blender(path.string());
   ASSERT_FALSE(info);
   EXPECT_THAT(info.error().message, HasSubstr("libfoo.so is missing"));

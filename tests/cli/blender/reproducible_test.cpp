@@ -10,6 +10,7 @@
 
 #include "formats/formats.h"
 #include "tests/cli/program.h"
+#include "tests/fixtures/script.h"
 
 namespace seedframe {
 namespace {
@@ -49,9 +50,9 @@ class RealBlenderCampaign : public ProgramTest {
   void SetUp() override {
     write_config("real.yaml", kConfig);
     // Blender, and a line for each of its starts.
-    write("blender.sh", "#!/bin/sh\n[ \"$1\" = --version ] || echo start >> " +
-                            (folder_ / "starts.txt").string() + "\nexec blender \"$@\"\n");
-    std::filesystem::permissions(folder_ / "blender.sh", std::filesystem::perms::owner_all);
+    write_script(folder_ / "blender.sh", "#!/bin/sh\n[ \"$1\" = --version ] || echo start >> " +
+                                             (folder_ / "starts.txt").string() +
+                                             "\nexec blender \"$@\"\n");
   }
   std::vector<std::string> submit(const std::string& campaign, const std::string& workers) {
     return {"submit",    "real.yaml", "-o",        campaign,
