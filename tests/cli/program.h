@@ -116,7 +116,7 @@ class ProgramTest : public ::testing::Test {
   }
 
   const ScratchFolder scratch_;
-  const std::filesystem::path folder_ = scratch_.path();
+  std::filesystem::path folder_ = scratch_.path();  ///< the working directory
 };
 
 }  // namespace seedframe
