@@ -81,7 +81,7 @@ struct FrameLabels {
   std::vector<std::string> categories;  ///< category k is categories[k - 1]
   std::array<double, 2> focal_px{};     ///< of the pinhole
   std::array<double, 2> center_px{};    ///< principal point; pixel centres are whole numbers
-  bool twin_exact = true;  ///< false: silhouettes know nothing of holes that textures cut
+  bool twin_exact = true;               ///< false: silhouettes do not show holes that textures cut
   /// Every instance of the spec with an id, in the spec's order.
   std::vector<InstanceLabel> instances;
 };

@@ -92,7 +92,7 @@ Result<LockedCampaign> create_campaign(const fs::path& folder, PreparedCampaign&
   std::error_code error;
   const bool existed = fs::exists(folder, error);
   if (existed && !fs::is_directory(folder, error)) {
-    return fail(ErrorKind::kInput, "{} is no folder: give another one with -o", folder.string());
+    return fail(ErrorKind::kInput, "{} is not a folder: give another one with -o", folder.string());
   }
   // Every submission makes its lock first: without one, whatever is there is somebody else's.
   if (existed && !fs::is_empty(folder, error) && !fs::exists(files.lock(), error)) {
@@ -100,7 +100,7 @@ Result<LockedCampaign> create_campaign(const fs::path& folder, PreparedCampaign&
   }
   const auto not_possible = [&](const Error& cause) {
     if (!existed) fs::remove_all(folder, error);
-    // The user chose this place, so it is for the user to mend.
+    // The user chose this place, so it is for the user to fix.
     const bool full = cause.kind == ErrorKind::kExhausted;
     return tl::unexpected(Error{full ? cause.kind : ErrorKind::kInput, cause.message});
   };

@@ -47,7 +47,8 @@ Result<InputStamps> stamps_of_submission(const Campaign& campaign) {
   const std::string what = campaign.files.store().string();
   const Result<Json> json = parse_json(*text, what);
   if (!json) return forward_error(json);
-  if (!json->is_object()) return fail(ErrorKind::kCorrupt, "{}: its list of inputs is none", what);
+  if (!json->is_object())
+    return fail(ErrorKind::kCorrupt, "{}: its list of inputs is damaged", what);
   InputStamps stamps;
   for (const auto& [path, stamp] : json->items()) {
     if (stamp.is_string()) stamps[path] = stamp.get<std::string>();

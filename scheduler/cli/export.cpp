@@ -111,7 +111,7 @@ void print_summary(const ExportSummary& summary) {
     fmt::print("\n");
   }
   if (summary.reused > 0) {
-    fmt::print("  {} of {} frames are as they were, and were taken over\n", summary.reused,
+    fmt::print("  {} of {} frames are unchanged and were taken over\n", summary.reused,
                summary.frames);
   }
 }

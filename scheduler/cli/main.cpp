@@ -52,7 +52,7 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   for (const CLI::App* level = &verb; level != nullptr; level = level->get_parent()) {
     name.insert(0, level->get_name() + (name.empty() ? "" : " "));
   }
-  std::fprintf(stderr, "seedframe: error: %s\nseedframe: '%s --help' tells what there is\n",
+  std::fprintf(stderr, "seedframe: error: %s\nseedframe: '%s --help' lists what there is\n",
                message.c_str(), name.c_str());
   return seedframe::kExitInput;
 }

@@ -26,8 +26,9 @@ struct ResumeArguments {
 
 void print_renewed(const RenewedFrames& renewed) {
   if (renewed.frames == 0) return;
-  std::fprintf(stderr, "%lld frames are others now and are made again, since these have changed:\n",
-               static_cast<long long>(renewed.frames));
+  std::fprintf(
+      stderr, "%lld frames have become different and are made again, because these have changed:\n",
+      static_cast<long long>(renewed.frames));
   constexpr std::size_t kMostShown = 10;
   for (std::size_t i = 0; i < std::min(kMostShown, renewed.inputs.size()); ++i) {
     std::fprintf(stderr, "  %s\n", renewed.inputs[i].c_str());

@@ -15,7 +15,7 @@ Result<ExportInstance> whole_instance(const CommittedFrame& frame, const LoadedF
                                       const InstanceLabel& label) {
   if (!loaded.labels.twin_exact || !label.amodal) {
     return fail(ErrorKind::kInput,
-                "frame {}: its textures cut holes, of which silhouettes know nothing: export "
+                "frame {}: its textures cut holes, which silhouettes do not show: export "
                 "without whole silhouettes (--amodal, bop)",
                 frame.index);
   }

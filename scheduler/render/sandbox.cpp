@@ -36,20 +36,18 @@ Status check_sandbox() {
   constexpr auto kLongest = std::chrono::seconds(10);
   std::error_code error;
   if (!std::filesystem::exists(kProgram, error)) {
-    return fail(
-        ErrorKind::kEnvironment,
-        "--sandbox needs {}, which is not there: install bubblewrap, or leave --sandbox out",
-        kProgram);
+    return fail(ErrorKind::kEnvironment,
+                "--sandbox needs {}, which is missing: install bubblewrap, or leave --sandbox out",
+                kProgram);
   }
   std::vector<std::string> arguments = sandbox_arguments(std::filesystem::temp_directory_path());
   arguments.emplace_back("/bin/true");
   const Result<std::string> tried = output_of(arguments, kLongest);
   if (tried) return {};
-  return fail(
-      ErrorKind::kEnvironment,
-      "--sandbox does not work here: {}. Let this user make name spaces, or leave --sandbox "
-      "out",
-      tried.error().message);
+  return fail(ErrorKind::kEnvironment,
+              "--sandbox does not work here: {}. Let this user make namespaces, or leave --sandbox "
+              "out",
+              tried.error().message);
 }
 
 }  // namespace seedframe

@@ -13,7 +13,7 @@ namespace seedframe {
 /// but `output`, its own /dev, /proc and process numbers, no network, and an end when we end.
 std::vector<std::string> sandbox_arguments(const std::filesystem::path& output);
 
-/// Tries it: kEnvironment when bubblewrap is missing, or the system lets nobody make name spaces.
+/// Tries it: kEnvironment when bubblewrap is missing, or the system lets nobody make namespaces.
 Status check_sandbox();
 
 }  // namespace seedframe

@@ -58,9 +58,9 @@ Status check_worker(const WorkerConditions& asked, const ReadyMessage& ready) {
   }
   if (ready.embree != asked.kernels->embree) {
     return fail(ErrorKind::kEnvironment,
-                "Embree was to use its kernels {}, and this Blender uses {}: its Embree is no "
-                "library of its own, which could be told so. Use the Blender of Debian's package, "
-                "or determinism: machine",
+                "Embree was to use its kernels {}, and this Blender uses {}: its Embree is "
+                "not a library of its own, so it cannot be told. Use the Blender of Debian's "
+                "package, or determinism: machine",
                 asked.kernels->embree,
                 ready.embree.empty() ? "others that it does not tell" : ready.embree);
   }

@@ -27,11 +27,11 @@ std::optional<Enum> value_named(const std::string& name, const std::array<const 
 }
 
 tl::unexpected<Error> damaged(const sqlite::Connection& connection) {
-  return fail(
-      ErrorKind::kCorrupt,
-      "the job store {} is damaged: it holds a state that nobody writes. What is in frames/ "
-      "is untouched; submit the campaign anew, or restore the store from a copy",
-      connection.path().string());
+  return fail(ErrorKind::kCorrupt,
+              "the job store {} is damaged: it holds a state that Seedframe never writes. What is "
+              "in frames/ "
+              "is untouched; submit the campaign anew, or restore the store from a copy",
+              connection.path().string());
 }
 
 std::int64_t& count_of(FrameCounts& counts, FrameState state) {

@@ -169,7 +169,7 @@ TEST_F(ExportTest, AddedScenesAddToTheExport) {
   fs::rename(folder_ / "more", folder_ / "c");
   const Outcome again = run(export_all("out", {"--split", "train=0.8,val=0.2"}));
   ASSERT_EQ(again.exit_code, 0) << again.errors;
-  EXPECT_THAT(again.output, HasSubstr("24 of 30 frames are as they were"));
+  EXPECT_THAT(again.output, HasSubstr("24 of 30 frames are unchanged"));
   EXPECT_EQ(run(export_all("fresh", {"--split", "train=0.8,val=0.2"})).exit_code, 0);
   EXPECT_EQ(contents("out"), contents("fresh"));
 }

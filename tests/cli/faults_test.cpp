@@ -323,7 +323,7 @@ TEST_F(FaultsTest, AChangedConfigIsAnotherDatasetAndMadeAnew) {
   write("c/campaign.yaml", text.replace(text.find("0.5]"), 4, "0.6]"));
   const Outcome outcome = resume();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_THAT(outcome.errors, HasSubstr("12 frames are others now"));
+  EXPECT_THAT(outcome.errors, HasSubstr("12 frames have become different"));
   EXPECT_THAT(outcome.errors, HasSubstr("  campaign.yaml\n"));
   EXPECT_THAT(outcome.output, HasSubstr("12 in this run"));
   write("faults.yaml", text);

@@ -62,7 +62,7 @@ TEST(WorkerConditions, AWorkerThatCannotKeepThemIsRefused) {
 
   const Status silent = check_worker(pinned_to(Isa::kAvx2), worker_with("avx2", ""));
   ASSERT_FALSE(silent);
-  EXPECT_THAT(silent.error().message, HasSubstr("no library of its own"));
+  EXPECT_THAT(silent.error().message, HasSubstr("not a library of its own"));
 }
 
 }  // namespace
