@@ -1,7 +1,5 @@
 #include "image_files/image_module.h"
 
-#include <atomic>
-
 #include <dlfcn.h>
 
 namespace seedframe {
@@ -12,8 +10,6 @@ constexpr const char* kFileName = "seedframe_image_module.so";
 constexpr const char* kRemedy =
     "install OpenImageIO (libopenimageio2.4, which scripts/setup.sh does) and build or install "
     "Seedframe as a whole";
-
-std::atomic<bool> is_open = false;
 
 /// Beside the program in a build folder, in lib/ when installed.
 std::vector<fs::path> usual_places() {
@@ -46,7 +42,6 @@ Result<const image_module::Table*> open_image_module(const std::vector<fs::path>
       return fail(ErrorKind::kEnvironment, "{} is of another Seedframe than this program; {}",
                   place.string(), kRemedy);
     }
-    is_open = true;
     return table;
   }
   return fail(ErrorKind::kEnvironment,
@@ -58,7 +53,5 @@ Result<const image_module::Table*> image_module_table() {
   static const Result<const image_module::Table*> kTable = open_image_module(usual_places());
   return kTable;
 }
-
-bool image_module_is_open() { return is_open; }
 
 }  // namespace seedframe

@@ -18,7 +18,4 @@ Result<const image_module::Table*> image_module_table();
 Result<const image_module::Table*> open_image_module(
     const std::vector<std::filesystem::path>& places);
 
-/// Whether this process has opened it.
-bool image_module_is_open();
-
 }  // namespace seedframe

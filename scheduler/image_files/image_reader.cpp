@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "image_files/image_module.h"
+#include "image_files/radiance_header.h"
 
 namespace seedframe {
 namespace {
@@ -36,11 +37,12 @@ const char* reader_of(ImageKind kind) {
 /// What its reader would take for an image, and is none.
 Status check_front(std::string_view bytes, ImageKind kind, const std::string& what) {
   const std::string looks = what_bytes_look_like(bytes);
-  const bool other = looks == "empty" || looks.find(": ") != std::string::npos;
-  if (other || !begins_like(bytes, kind)) {
+  // A TGA begins with nothing of its own, so whatever is recognised is none.
+  if (!begins_like(bytes, kind) || (kind == ImageKind::kTga && !looks.empty())) {
     return fail(ErrorKind::kInput, "{} is no {}: it {}{}", what, name_of(kind),
                 looks.empty() ? "begins like none" : "is ", looks);
   }
+  if (kind == ImageKind::kHdr) return check_radiance_header(bytes, what);
   // libjpeg paints what is missing grey, and calls that a warning. After the marker there may be
   // what cameras and downloads append.
   if (kind == ImageKind::kJpeg && bytes.rfind("\xff\xd9") == std::string_view::npos) {
@@ -107,12 +109,12 @@ Status Reading::take(const module::Header& header) {
   }
   const std::int64_t pixels = std::int64_t{header.width} * header.height;
   if (header.width > limits_.side_px || header.height > limits_.side_px ||
-      pixels > limits_.pixels || header.channels > limits_.channels) {
+      pixels > limits_.pixels || pixels * header.channels > limits_.values) {
     return fail(ErrorKind::kInput,
-                "{} is too large: {} × {} pixels of {} channels; {} a side, {} together and {} "
-                "channels are the most",
+                "{} is too large: {} × {} pixels of {} channels; {} pixels a side, {} together and "
+                "{} values are the most",
                 what_, header.width, header.height, header.channels, limits_.side_px,
-                limits_.pixels, limits_.channels);
+                limits_.pixels, limits_.values);
   }
   if (header.is_deep) {
     return fail(ErrorKind::kInput, "{} is a deep image: save it as a flat one", what_);

@@ -32,7 +32,7 @@ struct ImageHeader {
 struct ImageLimits {
   int side_px = 65'536;
   std::int64_t pixels = 1 << 28;  ///< 16,384 × 16,384
-  int channels = 64;
+  std::int64_t values = 1 << 30;  ///< pixels times channels
 };
 
 /// Called with the header, and then with rows from top to bottom, until one is an error. Integers

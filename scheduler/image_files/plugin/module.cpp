@@ -24,7 +24,7 @@ void set_limits() {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);        // none: OpenEXR's pool is shared with the program
   OIIO::attribute("plugin_searchpath", "");  // no formats but those built in
-  OIIO::attribute("limits:channels", 1024);
+  OIIO::attribute("limits:channels", 256);
   OIIO::attribute("limits:imagesize_MB", 4096);  // of decoded pixels
 }
 
