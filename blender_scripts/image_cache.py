@@ -31,6 +31,10 @@ _COLOR_SPACES = {
 }
 
 
+# Their colours are linear as they are; those of all other files are sRGB.
+_LINEAR_ENDINGS = (".exr", ".hdr")
+
+
 def _load(sha256, use, paths):
     if sha256 not in paths:
         raise ValueError(f"texture {sha256} is in the frame spec but not in the request's table")
@@ -40,6 +44,8 @@ def _load(sha256, use, paths):
     if width == 0 or height == 0:
         bpy.data.images.remove(image)
         raise ValueError(f"{path}: no image that Blender can read")
+    if use == "color" and path.lower().endswith(_LINEAR_ENDINGS):
+        use = "environment"
     _set_color_space(image, _COLOR_SPACES[use])
     image.alpha_mode = "NONE"
     return image, width * height

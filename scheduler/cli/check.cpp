@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "campaign/input_images.h"
 #include "campaign/prepared_campaign.h"
 #include "cli/allow_option.h"
 #include "cli/exit_code.h"
@@ -59,6 +60,9 @@ int check(const CheckArguments& arguments) {
   if (!source) return report(source.error());
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (!prepared) return report(prepared.error());
+  if (Status good = check_input_images(*prepared, cache_folder()); !good) {
+    return report(good.error());
+  }
   const Result<CampaignSize> size = check_frames(prepared->expander, arguments.graphs);
   if (!size) return report(size.error());
   const CampaignConfig& config = prepared->config;

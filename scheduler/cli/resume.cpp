@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/input_files.h"
+#include "campaign/input_images.h"
 #include "cli/allow_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
@@ -64,6 +65,9 @@ int resume(ResumeArguments arguments) {
     if (Status whole = campaign->store.check_integrity(); !whole) return report(whole.error());
   }
   if (Status begun = begin_run(*campaign); !begun) return report(begun.error());
+  if (Status good = check_changed_images(*campaign, *prepared, cache_folder()); !good) {
+    return report(good.error());
+  }
   const Result<RenewedFrames> renewed = renew_changed_frames(*campaign, *prepared);
   if (!renewed) return report(renewed.error());
   print_renewed(*renewed);

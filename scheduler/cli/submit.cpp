@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "campaign/disk_space.h"
+#include "campaign/input_images.h"
 #include "cli/allow_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
@@ -64,6 +65,9 @@ int submit(const SubmitArguments& arguments) {
                                : std::filesystem::path(arguments.output);
   const std::int64_t all = prepared->config.frame_count();
   const std::int64_t wanted = arguments.frames > 0 ? std::min(arguments.frames, all) : all;
+  if (Status good = check_input_images(*prepared, cache_folder()); !good) {
+    return report(good.error());
+  }
   // Every frame is expanded once before anything is written: a mistake in the last one leaves no
   // folder behind that somebody would have to take away again.
   const Result<CampaignSize> size = expand_all(prepared->expander, {.id = false});

@@ -38,7 +38,8 @@ class SectionCompiler {
     material.texture_repeat = inner.number(config.texture_repeat, "texture_repeat");
     if (config.textures) {
       material.textures = inner.text(*config.textures, "textures");
-      refuse_unknown(*material.textures, library.texture_set_names(), "texture set");
+      refuse_unknown(*material.textures, library.texture_sets(), library,
+                     &MaterialLibrary::no_texture_set);
     }
     return material;
   }
@@ -61,7 +62,7 @@ class SectionCompiler {
       result.place = draw.place();
       const auto possible = draw.possible_values();
       wanted = possible.value_or(library.material_names());
-      if (possible) refuse_unknown(draw, library.material_names(), "material");
+      refuse_unknown(draw, library.materials(), library, &MaterialLibrary::no_material);
       result.choice = draw;
     }
     const SectionCompiler inner(scope_, result.key, level_, errors_);
@@ -87,15 +88,14 @@ class SectionCompiler {
     return source ? std::optional(number(*source, key)) : std::nullopt;
   }
 
-  void refuse_unknown(const NameDraw& draw, const std::vector<std::string>& known,
-                      const char* kind) const {
+  /// `missing` says of a name that it is unknown.
+  template <class Known>
+  void refuse_unknown(const NameDraw& draw, const Known& known, const MaterialLibrary& library,
+                      std::string (MaterialLibrary::*missing)(const std::string&) const) const {
     const auto possible = draw.possible_values();
     if (!possible) return;
     for (const std::string& value : *possible) {
-      if (std::find(known.begin(), known.end(), value) == known.end()) {
-        errors_.add(draw.place(),
-                    fmt::format("there is no {} '{}'{}", kind, value, did_you_mean(value, known)));
-      }
+      if (!known.contains(value)) errors_.add(draw.place(), (library.*missing)(value));
     }
   }
 
@@ -119,8 +119,7 @@ class SectionCompiler {
     for (const std::vector<std::string>* names : {&share.realistic, &share.parametric}) {
       for (const std::string& name : *names) {
         if (library.materials().contains(name)) continue;
-        errors_.add(config.place, fmt::format("there is no material '{}'{}", name,
-                                              did_you_mean(name, library.material_names())));
+        errors_.add(config.place, library.no_material(name));
       }
     }
     return share;
@@ -204,7 +203,8 @@ class Compiler {
     compiled_.world.rotation_deg = world.number(config_.world.rotation_deg, "rotation_deg");
     if (config_.world.hdri) {
       compiled_.world.hdri = world.text(*config_.world.hdri, "hdri");
-      world.refuse_unknown(*compiled_.world.hdri, materials_.hdri_names(), "environment map");
+      world.refuse_unknown(*compiled_.world.hdri, materials_.hdris(), materials_,
+                           &MaterialLibrary::no_hdri);
     }
     if (!config_.ground) return;
     const SectionCompiler section(scope_, "ground", config_.ground->redraw, errors_);

@@ -31,6 +31,9 @@ class SceneExpander::Program {
   Result<std::vector<OfferedAsset>> offered() const {
     return seedframe::offered_assets(compiled_.objects, placer_.assets(), config_.categories);
   }
+  std::vector<OfferedImage> offered_images() const {
+    return seedframe::offered_images(compiled_, materials_.library());
+  }
 
  private:
   RenderSettings render_settings(const EvaluationContext& context) const;
@@ -241,6 +244,14 @@ const std::map<std::string, std::string>& SceneExpander::asset_hashes() const {
 
 Result<std::vector<OfferedAsset>> SceneExpander::offered_assets() const {
   return program_->offered();
+}
+
+std::vector<OfferedImage> SceneExpander::offered_images() const {
+  return program_->offered_images();
+}
+
+const MaterialLibrary& SceneExpander::material_library() const {
+  return program_->materials().library();
 }
 
 const std::vector<ConstraintTally>& SceneExpander::constraint_tallies() const {

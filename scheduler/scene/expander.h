@@ -17,6 +17,7 @@
 #include "scene/constraints.h"
 #include "scene/material_library.h"
 #include "scene/offered_assets.h"
+#include "scene/offered_images.h"
 #include "spec/frame_spec.h"
 
 namespace seedframe {
@@ -68,6 +69,9 @@ class SceneExpander {
   const std::map<std::string, std::string>& asset_hashes() const;
   /// What any frame can hold; see offered_assets.
   Result<std::vector<OfferedAsset>> offered_assets() const;
+  /// Which image files any frame can hold; see offered_images.
+  std::vector<OfferedImage> offered_images() const;
+  const MaterialLibrary& material_library() const;
   /// Over all frames expanded so far, in the order of the config.
   const std::vector<ConstraintTally>& constraint_tallies() const;
 

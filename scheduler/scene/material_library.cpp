@@ -3,21 +3,57 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "base/files.h"
+#include "base/nearest_name.h"
 #include "config/config_text.h"
+#include "image_files/image_kind.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 5> kTextureEndings = {
-    {{"_Color", "color"},
-     {"_Roughness", "roughness"},
-     {"_NormalGL", "normal"},
-     {"_Metalness", "metallic"},
-     {"_Opacity", "alpha"}}};
+struct TextureName {
+  const char* ending;  ///< of the stem
+  const char* role;
+};
+
+constexpr std::array<TextureName, 11> kTextureNames = {{{"_Color", "color"},
+                                                        {"_Roughness", "roughness"},
+                                                        {"_NormalGL", "normal"},
+                                                        {"_Metalness", "metallic"},
+                                                        {"_Opacity", "alpha"},
+                                                        {"_diff", "color"},
+                                                        {"_rough", "roughness"},
+                                                        {"_nor_gl", "normal"},
+                                                        {"_metal", "metallic"},
+                                                        {"_opacity", "alpha"},
+                                                        {"_alpha", "alpha"}}};
+
+/// "brick_diff_2k" without its "_2k".
+std::string without_resolution(const std::string& stem) {
+  const std::size_t bar = stem.rfind('_');
+  if (bar == std::string::npos || stem.size() < bar + 3) return stem;
+  const auto digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  const bool is_resolution =
+      (stem.back() == 'k' || stem.back() == 'K') &&
+      std::all_of(stem.begin() + static_cast<std::ptrdiff_t>(bar) + 1, stem.end() - 1, digit);
+  return is_resolution ? stem.substr(0, bar) : stem;
+}
+
+/// What a file is in its set; null if it is nothing.
+const char* role_of(const fs::path& file) {
+  const std::string stem = without_resolution(file.stem().string());
+  for (const TextureName& known : kTextureNames) {
+    if (stem.ends_with(known.ending)) return known.role;
+  }
+  return nullptr;
+}
+
+bool is_usual(ImageKind kind) { return kind == ImageKind::kPng || kind == ImageKind::kJpeg; }
 
 std::vector<fs::path> sorted_entries(const fs::path& folder) {
   std::vector<fs::path> entries;
@@ -25,18 +61,6 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) entries.push_back(entry.path());
   std::sort(entries.begin(), entries.end());
   return entries;
-}
-
-std::string lower_case_ending(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
-bool is_image(const fs::path& file) {
-  const std::string ending = lower_case_ending(file);
-  return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
 }
 
 MaterialConfig plain_material(const std::string& name) {
@@ -100,8 +124,7 @@ Status MaterialLibrary::add_folder(const fs::path& folder) {
   for (const fs::path& entry : sorted_entries(folder)) add_texture_set(entry);
   for (const fs::path& entry : sorted_entries(folder / "textures")) add_texture_set(entry);
   for (const fs::path& entry : sorted_entries(folder / "hdri")) {
-    const std::string ending = lower_case_ending(entry);
-    if (ending == ".exr" || ending == ".hdr") hdris_.emplace(entry.stem().string(), entry);
+    add_hdri(entry);
   }
   return {};
 }
@@ -109,13 +132,48 @@ Status MaterialLibrary::add_folder(const fs::path& folder) {
 void MaterialLibrary::add_texture_set(const fs::path& folder) {
   TextureSet set;
   set.name = folder.filename().string();
-  for (const fs::path& file : sorted_entries(folder)) {
-    const std::string stem = file.stem().string();
-    for (const auto& [ending, role] : kTextureEndings) {
-      if (stem.ends_with(ending) && is_image(file)) set.files.emplace(role, file);
+  std::vector<fs::path> files = sorted_entries(folder);
+  std::stable_partition(files.begin(), files.end(), [](const fs::path& file) {
+    const std::optional<ImageKind> kind = image_kind_of(file);
+    return kind && is_usual(*kind);
+  });
+  for (const fs::path& file : files) {
+    const char* role = role_of(file);
+    if (role == nullptr) continue;
+    if (image_kind_of(file)) {
+      set.files.emplace(role, file);
+    } else if (std::string_view(role) == "color") {
+      unread_colors_.emplace(set.name, file);
     }
   }
   if (set.files.contains("color")) texture_sets_.emplace(set.name, set);
+}
+
+void MaterialLibrary::add_hdri(const fs::path& file) {
+  const std::optional<ImageKind> kind = image_kind_of(file);
+  const bool is_linear = kind == ImageKind::kExr || kind == ImageKind::kHdr;
+  (is_linear ? hdris_ : unread_hdris_).emplace(file.stem().string(), file);
+}
+
+std::string MaterialLibrary::no_material(const std::string& name) const {
+  const auto unread = unread_colors_.find(name);
+  if (unread != unread_colors_.end()) return no_texture_set(name);
+  return "there is no material '" + name + "'" + did_you_mean(name, material_names());
+}
+
+std::string MaterialLibrary::no_texture_set(const std::string& name) const {
+  const std::string text = "there is no texture set '" + name + "'";
+  const auto unread = unread_colors_.find(name);
+  if (unread == unread_colors_.end()) return text + did_you_mean(name, texture_set_names());
+  return text + ": its colour is " + unread->second.string() + ", and images end in " +
+         image_endings();
+}
+
+std::string MaterialLibrary::no_hdri(const std::string& name) const {
+  const std::string text = "there is no environment map '" + name + "'";
+  const auto unread = unread_hdris_.find(name);
+  if (unread == unread_hdris_.end()) return text + did_you_mean(name, hdri_names());
+  return text + ": environment maps end in .exr or .hdr, not as " + unread->second.string();
 }
 
 std::vector<std::string> MaterialLibrary::material_names() const { return keys_of(materials_); }

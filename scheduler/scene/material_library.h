@@ -11,8 +11,15 @@
 
 namespace seedframe {
 
-/// Image files of one physical surface, in CC-Textures' naming: <anything>_Color, _Roughness,
-/// _NormalGL, _Metalness (.png, .jpg or .jpeg).
+/// Image files of one physical surface, by the names that libraries give them (the resolution, as
+/// _2k, may follow):
+///
+/// | library                | color  | roughness  | normal    | metallic   | alpha            |
+/// | ambientCG, CC-Textures | _Color | _Roughness | _NormalGL | _Metalness | _Opacity         |
+/// | Poly Haven             | _diff  | _rough     | _nor_gl   | _metal     | _opacity, _alpha |
+///
+/// PNG and JPEG files come before others of the same role. Normal maps for DirectX (_NormalDX,
+/// _nor_dx) are left alone: green points the other way in them.
 struct TextureSet {
   std::string name;
   std::map<std::string, std::filesystem::path>
@@ -35,6 +42,11 @@ class MaterialLibrary {
   const std::map<std::string, TextureSet>& texture_sets() const { return texture_sets_; }
   std::vector<std::string> material_names() const;
   std::vector<std::string> texture_set_names() const;
+  /// Why there is none of that name, for a message: names the file whose ending alone keeps it from
+  /// being one, or else names that are near.
+  std::string no_material(const std::string& name) const;
+  std::string no_texture_set(const std::string& name) const;
+  std::string no_hdri(const std::string& name) const;
   /// Environment maps, <folder>/hdri/<name>.exr or .hdr: name to file.
   const std::map<std::string, std::filesystem::path>& hdris() const { return hdris_; }
   std::vector<std::string> hdri_names() const;
@@ -43,11 +55,14 @@ class MaterialLibrary {
  private:
   Status add_folder(const std::filesystem::path& folder);
   void add_texture_set(const std::filesystem::path& folder);
+  void add_hdri(const std::filesystem::path& file);
 
   AllowedFolders allowed_;
   std::map<std::string, MaterialConfig> materials_;
   std::map<std::string, TextureSet> texture_sets_;
   std::map<std::string, std::filesystem::path> hdris_;
+  /// By name: files that are right but for their ending.
+  std::map<std::string, std::filesystem::path> unread_colors_, unread_hdris_;
 };
 
 }  // namespace seedframe

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/nearest_name.h"
 #include "base/sha256.h"
 #include "scene/frame_draft.h"
 
@@ -37,8 +36,7 @@ int MaterialPicker::add(const CompiledMaterials& materials, FrameSpec& spec,
   const std::string name = draw_name_of(materials, context);
   const auto found = materials.by_name.find(name);
   if (found == materials.by_name.end()) {
-    context.report(materials.place, "there is no material '" + name + "'" +
-                                        did_you_mean(name, library_.material_names()));
+    context.report(materials.place, library_.no_material(name));
     return 0;
   }
   const CompiledMaterial& source = found->second;
@@ -67,8 +65,7 @@ void MaterialPicker::add_textures(const std::string& set, const Place& place,
                                   MaterialSpec& material, EvaluationContext& context) {
   const auto found = library_.texture_sets().find(set);
   if (found == library_.texture_sets().end()) {
-    context.report(place, "there is no texture set '" + set + "'" +
-                              did_you_mean(set, library_.texture_set_names()));
+    context.report(place, library_.no_texture_set(set));
     return;
   }
   for (const auto& [role, file] : found->second.files) {
@@ -80,8 +77,7 @@ std::string MaterialPicker::hdri(const NameDraw& draw, EvaluationContext& contex
   const std::string name = draw.evaluate(context);
   const auto found = library_.hdris().find(name);
   if (found != library_.hdris().end()) return hash_of(found->second, draw.place(), context);
-  context.report(draw.place(), "there is no environment map '" + name + "'" +
-                                   did_you_mean(name, library_.hdri_names()));
+  context.report(draw.place(), library_.no_hdri(name));
   return "";
 }
 
