@@ -100,7 +100,8 @@ TEST_F(InputImagesTest, AFileThatIsKnownToBeGoodIsNotDecodedAgain) {
     return WEXITSTATUS(std::system(command.c_str()));
   };
   EXPECT_EQ(run_copy(with_cache()), 4);
-  EXPECT_THAT(*read_file(folder_ / "copy.txt"), HasSubstr("the library that reads and writes images is missing"));
+  EXPECT_THAT(*read_file(folder_ / "copy.txt"),
+              HasSubstr("the library that reads and writes images is missing"));
   EXPECT_THAT(*read_file(folder_ / "copy.txt"), HasSubstr("install OpenImageIO"));
   EXPECT_EQ(run({"check", "c.yaml"}, with_cache()).exit_code, 0);
   EXPECT_EQ(run_copy(with_cache()), 0) << *read_file(folder_ / "copy.txt");
