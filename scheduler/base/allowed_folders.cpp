@@ -46,10 +46,10 @@ Status AllowedFolders::check(const fs::path& path, const std::string& what) cons
   }
   const fs::path target = resolved(path);
   if (target.empty()) {
-    return fail(
-        ErrorKind::kInput,
-        "{}: cannot find out where {} leads: links in a circle, or a folder that may not be read",
-        what, path.string());
+    return fail(ErrorKind::kInput,
+                "{}: cannot find out where {} leads: it is too long, has links in a circle, or is "
+                "in a folder that may not be read",
+                what, path.string());
   }
   const bool allowed = std::any_of(folders_.begin(), folders_.end(), [&](const fs::path& folder) {
     return is_below(folder, target);

@@ -64,7 +64,7 @@ Result<std::map<std::int64_t, std::string>> changed_frames(const Campaign& campa
   if (counts->total() != prepared.expander.frame_count()) {
     return fail(ErrorKind::kInput,
                 "{}: the campaign was submitted with {} frames, its config asks for {} now: submit "
-                "it anew, into another folder",
+                "it again, into another folder",
                 campaign.files.root().string(), counts->total(), prepared.expander.frame_count());
   }
   std::map<std::int64_t, std::string> changed;
@@ -138,7 +138,7 @@ Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign&
     return fail(ErrorKind::kInput,
                 "{}: no input has changed, but this Seedframe would make {} of its frames "
                 "differently, for example frame {}: go on with the Seedframe (and the libraries) "
-                "that made them, or submit the campaign anew, into another folder",
+                "that made them, or submit the campaign again, into another folder",
                 campaign.files.root().string(), changed->size(), changed->begin()->first);
   }
   const Status written = campaign.store.write_together(JobStore::Sync::kNow, [&]() -> Status {

@@ -239,7 +239,7 @@ void add_asset_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::App* keypoints = add_action(*verb, "keypoints", "Show or set an asset's named points",
                                    options, on_selected, show_keypoints);
   add_keypoint_options(*keypoints, options->keypoints);
-  CLI::App* draw = add_action(*verb, "thumbnail", "Draw the thumbnails anew", options, on_selected,
+  CLI::App* draw = add_action(*verb, "thumbnail", "Draw the thumbnails again", options, on_selected,
                               draw_thumbnails);
   draw->add_option("NAME", options->names, "Only these assets");
   draw->footer("Example: seedframe asset thumbnail gear");

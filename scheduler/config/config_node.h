@@ -57,7 +57,8 @@ class ConfigNode {
   const std::string& path() const { return path_; }
 
   /// The file or folder that a scalar names; a relative path starts at the folder of the config
-  /// that was given. An error, and nothing, if it is no text or leads out of the allowed folders.
+  /// that was given. An error, and nothing, if it is not a text or leads out of the allowed
+  /// folders.
   std::optional<std::filesystem::path> named_path(Diagnostics& errors) const;
 
   /// The files and folders that were read or named so far, in this config and its bases: what

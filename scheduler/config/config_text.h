@@ -1,4 +1,4 @@
-// What is looked at in texts before anybody makes sense of them.
+// Checks of a config's text before it is parsed, and its numbers.
 #pragma once
 
 #include <cstddef>

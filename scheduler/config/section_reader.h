@@ -1,4 +1,5 @@
-// Reads one mapping of a config key by key, and in the end refuses the keys that nobody asked for.
+// Reads one mapping of a config key by key, and in the end refuses the keys that were not asked
+// for.
 #pragma once
 
 #include <optional>

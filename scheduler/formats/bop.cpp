@@ -190,7 +190,7 @@ class Bop : public ExportFormat {
     if (found != ids_.end()) return found->second;
     return fail(ErrorKind::kCorrupt,
                 "frame {}, instance {} ('{}') is of the asset '{}', which the campaign's config no "
-                "longer uses: put it back, or submit the campaign anew",
+                "longer uses: put it back, or submit the campaign again",
                 frame.frame.index, label.id, label.name, label.asset);
   }
 

@@ -14,7 +14,7 @@ Result<std::vector<KeypointRow>> keypoint_rows(const CommittedFrame& frame,
       return fail(ErrorKind::kCorrupt,
                   "frame {}, instance {} ('{}') has a keypoint '{}', which the assets no longer "
                   "have: put it back with 'seedframe asset keypoints {}', or submit the campaign "
-                  "anew",
+                  "again",
                   frame.index, label.id, label.name, point.name, label.asset);
     }
     rows[static_cast<std::size_t>(found - keypoints.names.begin())] = {point.px, point.visibility};

@@ -437,7 +437,7 @@ class Builder {
     const auto found = components.find(node.text);
     if (found == components.end() || type_of(input).type != ValueType::kVector) {
       refuse(found == components.end()
-                 ? "'" + node.text + "' is no component of a vector (there are: x, y, z)"
+                 ? "'" + node.text + "' is not a component of a vector (there are: x, y, z)"
                  : "only a vector has a component " + node.text);
       return 0;
     }

@@ -45,12 +45,12 @@ Status check_categories(const std::vector<std::string>& now, const CommittedFram
     if (std::find(now.begin(), now.end(), category) != now.end()) continue;
     return fail(ErrorKind::kCorrupt,
                 "frame {} was labelled with a class '{}', which the campaign's config no longer "
-                "has: put it back into 'categories', or submit the campaign anew",
+                "has: put it back into 'categories', or submit the campaign again",
                 frame.index, category);
   }
   return fail(ErrorKind::kCorrupt,
               "frame {} was labelled with {} classes, the campaign's config has {} or another "
-              "order of them: make 'categories' as they were, or submit the campaign anew",
+              "order of them: make 'categories' as they were, or submit the campaign again",
               frame.index, labels.categories.size(), now.size());
 }
 

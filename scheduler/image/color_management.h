@@ -24,7 +24,7 @@ class ColorManagement {
   ColorManagement& operator=(ColorManagement&&) noexcept;
 
   /// kInput errors: a display, view or look that the config does not have, with "did you mean"; an
-  /// exposure or gamma that is no usable number.
+  /// exposure or gamma that is not a usable number.
   Status check(const ImageSettings& settings) const;
 
   /// RGBA scene-linear float to 8-bit RGB, as Blender would save an opaque film without dithering:

@@ -137,7 +137,7 @@ void join_borders(Mesh& mesh, RepairReport& report) {
   for (auto& triangle : mesh.triangles) {
     for (std::uint32_t& vertex : triangle) vertex = vertices.find(vertex);
   }
-  drop_unused_vertices(mesh);  // these are no fault of their own
+  drop_unused_vertices(mesh);  // not counted: the repair made them
 }
 
 // Says which triangles CGAL turned round.

@@ -14,8 +14,8 @@ namespace seedframe {
 /// Whether something ends at an edge: the surface, a material slot or the continuity of UVs.
 bool is_feature_edge(const Mesh& mesh, std::span<const EdgeUse> sides);
 
-/// For each triangle the number of its chart, from 0: triangles joined by edges that are no feature
-/// edges.
+/// For each triangle the number of its chart, from 0: triangles joined by edges that are not
+/// feature edges.
 MeshParts uv_charts(const Mesh& mesh, const std::vector<EdgeUse>& uses);
 
 /// UVs of points on or near a mesh, chart by chart.

@@ -102,7 +102,7 @@ class GltfParser {
   }
 
  private:
-  // The nodes of the default scene, or all that are nobody's child.
+  // The nodes of the default scene, or all that have no parent.
   Result<std::vector<Placed>> roots() const {
     std::vector<Placed> found;
     const Json scenes = file_.json().value("scenes", Json::array());
@@ -277,7 +277,7 @@ Result<Mesh> read_gltf(const std::filesystem::path& path) {
     const auto file = GltfFile::open(path);
     if (!file) return forward_error(file);
     return GltfParser(*file).parse();
-  } catch (const Json::exception& error) {  // a key of a type that nobody expects
+  } catch (const Json::exception& error) {  // a key of an unexpected type
     return fail(ErrorKind::kInput, "{}: {}", path.string(), error.what());
   }
 }

@@ -43,7 +43,7 @@ struct CameraSpec {
   double clip_start_m = 0.0;
   double clip_end_m = 0.0;
   double aperture_radius_m = 0.0;  ///< 0: a pinhole
-  double focus_distance_m = 0.0;   ///< along -z; of no meaning to a pinhole
+  double focus_distance_m = 0.0;   ///< along -z; a pinhole has no use for it
 };
 
 /// Parameters of Blender's Principled BSDF. A texture is named by the SHA-256 of its file; a colour

@@ -93,7 +93,7 @@ Result<JobStore> JobStore::open(const std::filesystem::path& path) {
   if (version.integer(0) != kVersion) {
     return fail(ErrorKind::kCorrupt,
                 "{} is a job store of version {}; this program reads version {}: use the Seedframe "
-                "that made it, or submit the campaign anew",
+                "that made it, or submit the campaign again",
                 path.string(), version.integer(0), kVersion);
   }
   return JobStore(std::move(database));

@@ -30,7 +30,7 @@ tl::unexpected<Error> damaged(const sqlite::Connection& connection) {
   return fail(ErrorKind::kCorrupt,
               "the job store {} is damaged: it holds a state that Seedframe never writes. What is "
               "in frames/ "
-              "is untouched; submit the campaign anew, or restore the store from a copy",
+              "is untouched; submit the campaign again, or restore the store from a copy",
               connection.path().string());
 }
 
@@ -142,7 +142,7 @@ Status JobStore::check_integrity() const {
   if (found == "ok") return {};
   return fail(ErrorKind::kCorrupt,
               "the job store {} is damaged ({}). What is in frames/ is untouched; submit the "
-              "campaign anew, or restore the store from a copy",
+              "campaign again, or restore the store from a copy",
               database_->connection.path().string(), found);
 }
 

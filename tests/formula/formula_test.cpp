@@ -181,8 +181,8 @@ TEST(Formula, VectorsHaveMembersAndIndices) {
   EXPECT_EQ(value_of("v[0] - v[2]", scope), -2.0);
   EXPECT_EQ(value_of("[4, 5, 6].g", scope), 5.0);
   EXPECT_EQ(dimension_of("v.x", scope), kLength);
-  EXPECT_THAT(formula_error("v.w", scope), HasSubstr("'w' is no component of a vector"));
-  EXPECT_THAT(formula_error("v[3]", scope), HasSubstr("'3' is no component"));
+  EXPECT_THAT(formula_error("v.w", scope), HasSubstr("'w' is not a component of a vector"));
+  EXPECT_THAT(formula_error("v[3]", scope), HasSubstr("'3' is not a component"));
   EXPECT_THAT(formula_error("v[x]", scope), HasSubstr("expected 0, 1 or 2 after '['"));
   EXPECT_THAT(formula_error("v.x.y", scope), HasSubstr("only a vector has a component y"));
 }

@@ -183,7 +183,7 @@ TEST_F(PassReader, TheBackgroundsDepthIsANumber) {
   EXPECT_EQ(passes->depth->at(1, 1), 1e10F);
 }
 
-TEST_F(PassReader, AnIndexThatIsNoIdIsAnErrorThatNamesThePixel) {
+TEST_F(PassReader, AnIndexThatIsNotAnIdIsAnErrorThatNamesThePixel) {
   for (const float index : {1.5F, -1.0F, 11.0F, 70000.0F, 1e30F}) {
     ExrFile file = blender_exr();
     file.at("ViewLayer.IndexOB.X", 1, 0) = index;

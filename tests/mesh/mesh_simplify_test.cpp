@@ -92,7 +92,7 @@ TEST(MeshSimplifier, IsDeterministicAndGoesOn) {
   EXPECT_EQ(mesh_buffer(simplifier->mesh()), mesh_buffer(copy.mesh()));
 }
 
-TEST(MeshSimplifier, RefusesWhatIsNoManifold) {
+TEST(MeshSimplifier, RefusesWhatIsNotAManifold) {
   Mesh mesh = example_cube();
   std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
   EXPECT_FALSE(MeshSimplifier::create(mesh, "mesh"));

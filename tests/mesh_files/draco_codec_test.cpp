@@ -186,7 +186,7 @@ TEST(DracoCodec, SurvivesFlippedBits) {
   }
 }
 
-TEST(DracoCodec, RefusesWhatIsNoDracoStream) {
+TEST(DracoCodec, RefusesWhatIsNotADracoStream) {
   EXPECT_FALSE(decode_draco("", "empty"));
   EXPECT_FALSE(decode_draco("DRACO", "magic alone"));
   EXPECT_FALSE(decode_draco(std::string(4096, '\xff'), "noise"));

@@ -66,7 +66,7 @@ TEST(Triangulate, TakesAHoleThatABridgeJoinsToTheOutline) {
   EXPECT_NEAR(areas.without_sign, 12.0, 1e-12);
 }
 
-TEST(Triangulate, EndsOnPolygonsThatAreNoPolygons) {
+TEST(Triangulate, EndsOnWhatIsNotAPolygon) {
   EXPECT_EQ(triangulate({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);  // a bow tie
   EXPECT_EQ(triangulate(Corners(5, Eigen::Vector3d(1, 1, 1))).size(), 3u);
   EXPECT_EQ(triangulate({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}).size(), 2u);

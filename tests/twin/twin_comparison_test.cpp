@@ -29,14 +29,14 @@ Ids with_rectangle(int x, int y, int width, int height, std::uint16_t id, Ids id
   return ids;
 }
 
-TEST(TwinCheck, EqualImagesAgree) {
+TEST(TwinComparison, EqualImagesAgree) {
   const Ids ids = with_rectangle(20, 20, 60, 50, 3);
   const TwinVerdict verdict = compare_with_twin(spec_of_two(), ids, ids, kDefault);
   EXPECT_THAT(verdict.complaint, IsEmpty());
   EXPECT_EQ(verdict.tally, (TwinTally{160 * 120, 0, 0}));
 }
 
-TEST(TwinCheck, AFewPixelsAtAnOutlineAreCountedAndAllowed) {
+TEST(TwinComparison, AFewPixelsAtAnOutlineAreCountedAndAllowed) {
   const Ids twin = with_rectangle(20, 20, 60, 50, 3);
   Ids rendered = twin;
   rendered.at(20, 30) = 0;
@@ -46,7 +46,7 @@ TEST(TwinCheck, AFewPixelsAtAnOutlineAreCountedAndAllowed) {
   EXPECT_EQ(verdict.tally, (TwinTally{160 * 120, 0, 2}));
 }
 
-TEST(TwinCheck, AGlimpseOfSomethingSmallerThanAPixelIsAnEdge) {
+TEST(TwinComparison, AGlimpseOfSomethingSmallerThanAPixelIsAnEdge) {
   const Ids twin = with_rectangle(20, 20, 60, 50, 3);
   Ids rendered = twin;
   rendered.at(40, 40) = 7;  // and nowhere else in either
@@ -60,7 +60,7 @@ TEST(TwinCheck, AGlimpseOfSomethingSmallerThanAPixelIsAnEdge) {
   EXPECT_EQ(difference_image(rendered, twin, grazes).at(50, 50), 255);
 }
 
-TEST(TwinCheck, AHoleInAnInstanceIsInside) {
+TEST(TwinComparison, AHoleInAnInstanceIsInside) {
   const Ids twin = with_rectangle(20, 20, 60, 50, 3);
   const Ids rendered = with_rectangle(40, 40, 2, 1, 0, twin);
   const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault);
@@ -71,7 +71,7 @@ TEST(TwinCheck, AHoleInAnInstanceIsInside) {
   EXPECT_THAT(loose.complaint, IsEmpty()) << "3.84 pixels are allowed";
 }
 
-TEST(TwinCheck, AMissingObjectIsCaught) {
+TEST(TwinComparison, AMissingObjectIsCaught) {
   const Ids twin = with_rectangle(90, 20, 30, 30, 7, with_rectangle(20, 20, 60, 50, 3));
   const Ids rendered = with_rectangle(20, 20, 60, 50, 3);
   const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault);
@@ -79,14 +79,14 @@ TEST(TwinCheck, AMissingObjectIsCaught) {
   EXPECT_THAT(verdict.complaint, HasSubstr("missing from the picture"));
 }
 
-TEST(TwinCheck, AThingThatTheTwinDoesNotSeeIsCaught) {
+TEST(TwinComparison, AThingThatTheTwinDoesNotSeeIsCaught) {
   const Ids twin = with_rectangle(20, 20, 60, 50, 3);
   const Ids rendered = with_rectangle(90, 20, 30, 30, 7, twin);
   const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault);
   EXPECT_THAT(verdict.complaint, HasSubstr("the twin does not see it"));
 }
 
-TEST(TwinCheck, AnObjectOnePixelOutOfPlaceIsCaughtThoughOnlyEdgesDiffer) {
+TEST(TwinComparison, AnObjectOnePixelOutOfPlaceIsCaughtThoughOnlyEdgesDiffer) {
   const Ids twin = with_rectangle(20, 20, 60, 50, 3);
   const Ids rendered = with_rectangle(21, 20, 60, 50, 3);
   const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault);
@@ -95,19 +95,19 @@ TEST(TwinCheck, AnObjectOnePixelOutOfPlaceIsCaughtThoughOnlyEdgesDiffer) {
   EXPECT_THAT(verdict.complaint, HasSubstr("'cube/3'"));
 }
 
-TEST(TwinCheck, ATinyObjectOutOfPlaceIsWithinWhatIsAlwaysAllowed) {
+TEST(TwinComparison, ATinyObjectOutOfPlaceIsWithinWhatIsAlwaysAllowed) {
   const Ids twin = with_rectangle(20, 20, 3, 3, 3);
   const Ids rendered = with_rectangle(21, 20, 3, 3, 3);
   EXPECT_THAT(compare_with_twin(spec_of_two(), rendered, twin, kDefault).complaint, IsEmpty());
 }
 
-TEST(TwinCheck, TwoInstancesThatSwappedIdsAreCaught) {
+TEST(TwinComparison, TwoInstancesThatSwappedIdsAreCaught) {
   const Ids twin = with_rectangle(90, 20, 30, 30, 7, with_rectangle(20, 20, 60, 50, 3));
   const Ids rendered = with_rectangle(90, 20, 30, 30, 3, with_rectangle(20, 20, 60, 50, 7));
   EXPECT_FALSE(compare_with_twin(spec_of_two(), rendered, twin, kDefault).complaint.empty());
 }
 
-TEST(TwinCheck, BordersOfTheImageAreNoOutline) {
+TEST(TwinComparison, BordersOfTheImageAreNotAnOutline) {
   const Ids twin = with_rectangle(0, 0, 160, 120, 3);
   Ids rendered = twin;
   rendered.at(0, 0) = 7;  // the twin has no 7 next to it: not an outline that rounds
@@ -115,7 +115,7 @@ TEST(TwinCheck, BordersOfTheImageAreNoOutline) {
             (TwinTally{160 * 120, 1, 0}));
 }
 
-TEST(TwinCheck, TheDifferenceImageShowsWhere) {
+TEST(TwinComparison, TheDifferenceImageShowsWhere) {
   const Ids twin = with_rectangle(20, 20, 60, 50, 3);
   Ids rendered = twin;
   rendered.at(20, 30) = 0;
