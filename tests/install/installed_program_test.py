@@ -54,7 +54,8 @@ class InstalledProgram(unittest.TestCase):
                      "share/doc/seedframe/README.md", "share/doc/seedframe/docs/README.md",
                      "share/doc/seedframe/LICENSE", "share/doc/seedframe/copyright",
                      "share/man/man1/seedframe.1.gz", "share/bash-completion/completions/seedframe",
-                     "share/zsh/site-functions/_seedframe", "share/fish/vendor_completions.d/seedframe.fish"]:
+                     "share/zsh/site-functions/_seedframe",
+                     "share/zsh/vendor-completions/_seedframe", "share/fish/vendor_completions.d/seedframe.fish"]:
             self.assertTrue((self.prefix / file).is_file(), file)
         strangers = [file for file in self.prefix.rglob("*") if file.name in ("__pycache__", "campaign.sqlite")]
         self.assertEqual(strangers, [])
