@@ -23,7 +23,7 @@ root=${2:-$(mktemp -d)}
 make_bare_system "$root"
 cp "$package" "$root/seedframe.deb"
 in_bare_system "apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
-  --no-install-recommends /seedframe.deb bash-completion man-db >/dev/null 2>&1 && seedframe --version"
+  --no-install-recommends /seedframe.deb bash-completion man-db >/dev/null && seedframe --version"
 chroot "$root" sh -c 'id user >/dev/null 2>&1 || useradd --create-home user'
 
 # From a home with nothing in it, by a user who may write nowhere else.
@@ -35,9 +35,8 @@ in_bare_system "cd && seedframe export labels --format coco --format yolo-segmen
 in_bare_system "cd && seedframe export labels --format coco --verify"
 in_bare_system "cd && seedframe submit $configs/parts.yaml -o parts --frames 2 --quiet"
 in_bare_system "cd && seedframe status parts && seedframe audit parts --frames 1 --vary threads --quiet"
-in_bare_system "man seedframe | grep -c . "
+in_bare_system "man seedframe >/dev/null && seedframe --help >/dev/null"
 in_bare_system "bash -c '. /usr/share/bash-completion/bash_completion && _completion_loader seedframe; complete -p seedframe'"
-in_bare_system "grep -q 'Licence\|License\|GPL' /usr/share/doc/seedframe/copyright"
 USER_THERE=root
 in_bare_system "apt-get remove -y -qq seedframe >/dev/null && ! ls -d /usr/share/seedframe /usr/lib/seedframe 2>/dev/null"
 echo "the package works"
