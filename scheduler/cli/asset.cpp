@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "assets/asset_check.h"
 #include "assets/asset_files.h"
@@ -52,6 +53,16 @@ std::string name_from_file(const fs::path& file) {
   return name;
 }
 
+/// The built-in assets of an installed program are not those of its user.
+Status check_writable(const Options& options) {
+  const fs::path root = options.library_root();
+  if (!options.root.empty() || ::access(root.c_str(), W_OK) == 0) return {};
+  return fail(ErrorKind::kInput,
+              "you may not write to the built-in assets in {}: name a library of your own with "
+              "--root DIR, and its folder in the config's asset_folders",
+              root.string());
+}
+
 Status draw_thumbnail(const fs::path& folder) {
   constexpr int kSide = 256;
   const auto asset = read_asset(folder);
@@ -63,6 +74,9 @@ Status draw_thumbnail(const fs::path& folder) {
 int import_files(const Options& options) {
   if (!options.import.name.empty() && options.files.size() > 1) {
     return report({ErrorKind::kInput, "--name names one asset: import the files one by one"});
+  }
+  if (!options.import.dry_run) {
+    if (Status may = check_writable(options); !may) return report(may.error());
   }
   Json reports = Json::array();
   for (const std::string& file : options.files) {
@@ -120,6 +134,7 @@ int list_assets(const Options& options) {
 }
 
 int draw_thumbnails(const Options& options) {
+  if (Status may = check_writable(options); !may) return report(may.error());
   const auto names = chosen_assets(options);
   if (!names) return report(names.error());
   for (const std::string& name : *names) {

@@ -26,6 +26,7 @@ std::string offer_command(const OptionText& option) {
 
 std::vector<std::string> names_of(const std::vector<CommandText>& verbs) {
   std::vector<std::string> names;
+  names.reserve(verbs.size());
   for (const CommandText& verb : verbs) names.push_back(verb.name());
   return names;
 }

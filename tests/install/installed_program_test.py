@@ -30,6 +30,7 @@ class InstalledProgram(unittest.TestCase):
     def setUpClass(cls):
         scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(scratch.cleanup)
+        os.chmod(scratch.name, 0o755)
         # Installed in one place and moved to another: nothing may hang on where it was put.
         root = pathlib.Path(scratch.name).resolve()
         install(root / "first")
@@ -39,10 +40,10 @@ class InstalledProgram(unittest.TestCase):
         cls.elsewhere = root / "elsewhere"
         cls.elsewhere.mkdir()
 
-    def run_program(self, *arguments, exit_code=0, program=None, **environment):
+    def run_program(self, *arguments, exit_code=0, program=None, user=None, **environment):
         kept = {name: value for name, value in os.environ.items() if not name.startswith("SEEDFRAME_")}
         done = subprocess.run([program or self.prefix / "bin/seedframe", *map(str, arguments)], cwd=self.elsewhere,
-                              env={**kept, "SEEDFRAME_CACHE": "off", **environment}, capture_output=True, text=True)
+                              env={**kept, "SEEDFRAME_CACHE": "off", **environment}, capture_output=True, text=True, user=user)
         self.assertEqual(done.returncode, exit_code, done.stdout + done.stderr)
         return done.stderr if exit_code else done.stdout
 
@@ -100,6 +101,17 @@ class InstalledProgram(unittest.TestCase):
         said = self.run_program("check", self.home / "configs/parts.yaml", exit_code=4,
                                 SEEDFRAME_HOME=str(self.elsewhere))
         self.assertIn(f"SEEDFRAME_HOME is '{self.elsewhere}'", said)
+
+    def test_keeps_users_from_the_built_in_assets(self):
+        (self.elsewhere / "part.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        nobody = 65534 if os.geteuid() == 0 else None  # root may write anywhere
+        (self.home / "assets").chmod(0o555)
+        try:
+            said = self.run_program("asset", "import", "part.obj", exit_code=2, user=nobody)
+        finally:
+            (self.home / "assets").chmod(0o755)
+        self.assertIn(f"built-in assets in {self.home}/assets", said)
+        self.assertIn("--root DIR", said)
 
     def test_installs_below_destdir(self):
         with tempfile.TemporaryDirectory() as stage:
