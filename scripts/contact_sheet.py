@@ -29,11 +29,15 @@ def main():
     if options.frames:
         folders = [options.campaign / "frames" / f"{f // 1000:03}" / f"{f:06}" for f in options.frames]
     if options.columns:
-        images = [Image.open(folder / "image.png").convert("RGB") for folder in folders]
+        images = [Image.open(picture_of(folder)).convert("RGB") for folder in folders]
         rows = [images[i:i + options.columns] for i in range(0, len(images), options.columns)]
     else:
         rows = list(zip(*(labelled_pair(folder) for folder in folders)))
     save_sheet(rows, options.output)
+
+
+def picture_of(folder):
+    return next(folder.glob("image.*"))
 
 
 def save_sheet(rows, output):
@@ -46,7 +50,7 @@ def save_sheet(rows, output):
 
 
 def labelled_pair(folder):
-    image = Image.open(folder / "image.png").convert("RGB")
+    image = Image.open(picture_of(folder)).convert("RGB")
     labels = json.loads((folder / "labels.json").read_text())
     ids = numpy.array(Image.open(folder / "instances.png"))
     shown = numpy.array(image).astype(float) * 0.35 + 0.25 * numpy.array(image.convert("L"))[:, :, None]

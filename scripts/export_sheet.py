@@ -20,8 +20,8 @@ WIDTH = 1464  # of the sheet, at most
 
 def main():
     folder, stem, out = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3]
-    split = next(path.parent.name for path in (folder / "yolo-detect" / "images").glob(f"*/{stem}.png"))
-    photo = Image.open(folder / "yolo-detect" / "images" / split / f"{stem}.png").convert("RGB")
+    split = next(path.parent.name for path in (folder / "yolo-detect" / "images").glob(f"*/{stem}.*"))
+    photo = Image.open(next((folder / "yolo-detect" / "images" / split).glob(f"{stem}.*"))).convert("RGB")
     photo = photo.resize((photo.width * SCALE, photo.height * SCALE), Image.Resampling.LANCZOS)
     drawn = [("image", photo), ("panoptic", panoptic(folder, split, stem, photo)),
              ("yolo-detect", yolo_boxes(folder, split, stem, photo)), ("yolo-obb", oriented(folder, split, stem, photo)),
@@ -89,7 +89,7 @@ def keypoints(folder, split, stem, photo):
     if not path.exists():
         return None
     coco = json.loads(path.read_text())
-    image = next(image for image in coco["images"] if image["file_name"] == f"{stem}.png")
+    image = next(image for image in coco["images"] if image["file_name"].startswith(f"{stem}."))
     skeletons = {category["id"]: category["skeleton"] for category in coco["categories"]}
     tile = photo.copy()
     pen = ImageDraw.Draw(tile)

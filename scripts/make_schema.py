@@ -140,6 +140,8 @@ FORMS = {
     "number or two numbers": {"anyOf": [ref("number"), numbers(2)]},
     "number or vector": {"anyOf": [ref("number"), numbers(3)]},
     "vector, or `objects`": ref("vector"),
+    "integer, or one of `none`, `lzw`, `zip`": {"anyOf": [{"type": "integer", "minimum": 0, "maximum": 9},
+                                                          {"enum": ["none", "lzw", "zip"]}]},
     "names and values": ref("values"),
     "names and lists": ref("axes"),
     "names and materials": names_to(ref("material"), "."),

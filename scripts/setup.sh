@@ -14,7 +14,7 @@ packages="
   libarchive-dev libboost-dev libcgal-dev libcli11-dev libdraco-dev libeigen3-dev libembree-dev libexpected-dev
   libfmt-dev
   libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libpugixml-dev librandom123-dev libsqlite3-dev
-  libssl-dev libstb-dev
+  libssl-dev
   libtbb-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev"
 

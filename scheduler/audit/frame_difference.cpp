@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "frames/campaign_files.h"
+#include "frames/frame_image.h"
 #include "image/pass_reader.h"
 #include "image/png_file.h"
 
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kAnyInstanceId = 32767;
+constexpr double kWhite = 255.0;  // in code values
 
 struct FramePixels {
   std::optional<FramePasses> passes;  ///< of a rendered frame
@@ -23,7 +25,8 @@ struct FramePixels {
   Image<std::uint16_t> instance_ids;
 };
 
-Result<FramePixels> read_pixels(const fs::path& folder) {
+/// `manifest` of a frame whose picture is wanted too, else null.
+Result<FramePixels> read_pixels(const fs::path& folder, const Manifest* manifest) {
   FramePixels pixels;
   Result<Image<std::uint16_t>> ids = read_png16(folder / frame_files::kInstances);
   if (!ids) return forward_error(ids);
@@ -39,7 +42,8 @@ Result<FramePixels> read_pixels(const fs::path& folder) {
     return fail(ErrorKind::kCorrupt, "{}", passes.error().message);
   }
   pixels.passes = std::move(*passes);
-  Result<Image<std::uint8_t>> image = read_png8(folder / frame_files::kImage);
+  if (manifest == nullptr) return pixels;
+  Result<Image<std::uint8_t>> image = read_frame_image(folder, manifest->image.format);
   if (!image) return forward_error(image);
   pixels.image = std::move(*image);
   return pixels;
@@ -64,7 +68,7 @@ void compare_rendered(const FramePixels& a, const FramePixels& b,
   if (which.contains("normal") && x.normal && y.normal) {
     passes["normal"] = difference_of(*x.normal, *y.normal, StoredAs::kFloat);
   }
-  if (which.contains("image") && alike(*a.image, *b.image)) {
+  if (a.image && b.image && alike(*a.image, *b.image)) {
     passes["image"] = difference_of(*a.image, *b.image);
   }
 }
@@ -117,9 +121,10 @@ Result<FrameDifference> difference_of_frames(const fs::path& expected,
   const std::set<std::string> which =
       differing_passes(expected_manifest, found_manifest, difference);
   if (!which.empty()) {
-    const Result<FramePixels> a = read_pixels(expected);
+    const bool pictures = which.contains("image");
+    const Result<FramePixels> a = read_pixels(expected, pictures ? &expected_manifest : nullptr);
     if (!a) return forward_error(a);
-    const Result<FramePixels> b = read_pixels(found);
+    const Result<FramePixels> b = read_pixels(found, pictures ? &found_manifest : nullptr);
     if (!b) return forward_error(b);
     if (!alike(a->instance_ids, b->instance_ids)) {
       difference.unlike =
@@ -142,12 +147,14 @@ std::string describe(const FrameDifference& difference) {
   for (const auto& [pass, each] : difference.passes) {
     std::string text = fmt::format("{} {} of {} pixels", pass, each.differing, each.pixels);
     if (pass == "image") {
-      text += fmt::format(", at most {} of 255, RMS {:.2g}", each.max, each.rms);
+      text += fmt::format(", at most {} of 255, RMS {:.2g}, PSNR {:.1f} dB", each.max, each.rms,
+                          each.psnr_db(kWhite));
     } else if (pass == "normal") {  // near zero, units in the last place say nothing
       text += fmt::format(", at most {:.2g}, RMS {:.2g}", each.max, each.rms);
     } else if (pass != "index") {
       text += fmt::format(", at most {:.2g} or {} units in the last place, RMS {:.2g}", each.max,
                           each.max_ulp, each.rms);
+      if (pass == "combined") text += fmt::format(", PSNR {:.1f} dB", each.psnr_db(1.0));
     }
     parts.push_back(std::move(text));
   }
@@ -164,6 +171,10 @@ Json to_json(const FrameDifference& difference) {
     passes[pass]["max"] = std::min(each.max, 1e308);
     passes[pass]["rms"] = std::min(each.rms, 1e308);
     passes[pass]["max_ulp"] = each.max_ulp;
+    if (pass == "combined" || pass == "image") {
+      passes[pass]["psnr_db"] =
+          std::clamp(each.psnr_db(pass == "image" ? kWhite : 1.0), -1e308, 1e308);
+    }
   }
   return {{"grade", to_string(difference.grade)},
           {"passes", passes},
@@ -172,9 +183,9 @@ Json to_json(const FrameDifference& difference) {
 }
 
 Result<Image<std::uint8_t>> heat_map_of_frames(const fs::path& expected, const fs::path& found) {
-  const Result<FramePixels> a = read_pixels(expected);
+  const Result<FramePixels> a = read_pixels(expected, nullptr);
   if (!a) return forward_error(a);
-  const Result<FramePixels> b = read_pixels(found);
+  const Result<FramePixels> b = read_pixels(found, nullptr);
   if (!b) return forward_error(b);
   if (!a->passes || !b->passes || !alike(a->passes->combined, b->passes->combined)) {
     return fail(ErrorKind::kInput, "{} and {} have no pictures of the same size", expected.string(),

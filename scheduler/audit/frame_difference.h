@@ -26,7 +26,8 @@ Result<FrameDifference> difference_of_frames(const std::filesystem::path& expect
                                              const Manifest& found_manifest,
                                              const Tolerance& tolerance);
 
-/// "combined 1,234 of 76,800 pixels, at most 0.0049 and 2 units in the last place, RMS 0.0002; …"
+/// "combined 1,234 of 76,800 pixels, at most 0.0049 and 2 units in the last place, RMS 0.0002,
+/// PSNR 74.0 dB; …"
 std::string describe(const FrameDifference& difference);
 Json to_json(const FrameDifference& difference);
 

@@ -41,6 +41,8 @@ Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   if (Status set = store->set_meta(kAllowedKey, canonical_json(allowed)); !set) return set;
   const std::string inputs = canonical_json(Json(input_stamps(prepared)));
   if (Status set = store->set_meta(kInputsKey, inputs); !set) return set;
+  const std::string encoding = canonical_json(to_json(prepared.config.image.encoding));
+  if (Status set = store->set_meta(kEncodingKey, encoding); !set) return set;
   std::int64_t next = 0;
   return store->add_frames([&]() -> Result<std::optional<FrameRow>> {
     if (next == prepared.expander.frame_count()) return std::nullopt;
@@ -129,6 +131,16 @@ Result<Campaign> open_campaign(const fs::path& folder) {
   return Campaign{files, std::move(*store)};
 }
 
+Result<ImageEncoding> wanted_encoding(const Campaign& campaign) {
+  const Result<std::string> text = campaign.store.meta(kEncodingKey);
+  if (!text) return forward_error(text);
+  if (text->empty()) return ImageEncoding{};
+  const std::string what = campaign.files.store().string();
+  const Result<Json> json = parse_json(*text, what);
+  if (!json) return forward_error(json);
+  return image_encoding_from_json(*json, what);
+}
+
 Result<CampaignSource> source_of(const Campaign& campaign, const fs::path& home,
                                  const std::vector<std::string>& allowed) {
   const Result<std::string> text = read_file(campaign.files.config());
@@ -186,16 +198,30 @@ struct Changes {
   std::vector<std::int64_t> invalid;
 };
 
+struct ReconcileWishes {
+  ImageEncoding pictures;
+  bool verify = false;
+};
+
 FrameResult result_of(const Manifest& manifest, std::string fingerprint) {
   return {manifest.pixel_hash(), std::move(fingerprint), manifest.twin};
 }
 
+/// The manifest of a frame all of whose files are there, and as they should be.
+Result<Manifest> complete_frame(const fs::path& folder, const FrameRow& row,
+                                const ImageEncoding& pictures) {
+  Result<Manifest> manifest = verify_frame(folder, row.frame_id, VerifyDepth::kContents);
+  if (!manifest || manifest->picture_is(pictures)) return manifest;
+  return fail(ErrorKind::kCorrupt, "{}: its picture is {}, and the campaign wants {}",
+              folder.string(), describe(manifest->image), describe(pictures));
+}
+
 /// Whether a frame that the store calls done is so.
 bool is_still_done(const FrameRow& row, const fs::path& folder, const std::string& fingerprint,
-                   bool verify, Changes& changes, Reconciliation& result) {
+                   const ReconcileWishes& wishes, Changes& changes, Reconciliation& result) {
   const bool untouched = !fingerprint.empty() && fingerprint == row.fingerprint;
-  if (untouched && !verify) return true;
-  const Result<Manifest> manifest = verify_frame(folder, row.frame_id, VerifyDepth::kContents);
+  if (untouched && !wishes.verify) return true;
+  const Result<Manifest> manifest = complete_frame(folder, row, wishes.pictures);
   if (manifest && manifest->pixel_hash() == row.pixel_hash) {
     if (!untouched) changes.fingerprints.emplace_back(row.frame, fingerprint);
     return true;
@@ -208,15 +234,15 @@ bool is_still_done(const FrameRow& row, const fs::path& folder, const std::strin
 
 /// `fingerprint` is of the frame's folder, empty if there is none.
 void reconcile_frame(const FrameRow& row, const fs::path& folder, const std::string& fingerprint,
-                     bool verify, Changes& changes, Reconciliation& result) {
+                     const ReconcileWishes& wishes, Changes& changes, Reconciliation& result) {
   if (row.state == FrameState::kDone) {
-    if (is_still_done(row, folder, fingerprint, verify, changes, result)) {
+    if (is_still_done(row, folder, fingerprint, wishes, changes, result)) {
       ++result.already_done;
       return;
     }
   } else if (!fingerprint.empty()) {
     // What the store did not see being committed is believed only after reading all of it.
-    const auto manifest = verify_frame(folder, row.frame_id, VerifyDepth::kContents);
+    const auto manifest = complete_frame(folder, row, wishes.pictures);
     if (manifest) {
       changes.adopted.emplace_back(row.frame, result_of(*manifest, fingerprint));
       return;
@@ -247,6 +273,9 @@ Status apply(const Changes& changes, JobStore& store) {
 }  // namespace
 
 Result<Reconciliation> reconcile(Campaign& campaign, bool verify) {
+  const Result<ImageEncoding> pictures = wanted_encoding(campaign);
+  if (!pictures) return forward_error(pictures);
+  const ReconcileWishes wishes{*pictures, verify};
   std::error_code error;
   fs::remove_all(campaign.files.work(), error);
   Reconciliation result;
@@ -263,7 +292,7 @@ Result<Reconciliation> reconcile(Campaign& campaign, bool verify) {
     });
     for (std::size_t i = 0; i < rows->size(); ++i) {
       const FrameRow& row = (*rows)[i];
-      reconcile_frame(row, campaign.files.frame(row.frame), fingerprints[i], verify, changes,
+      reconcile_frame(row, campaign.files.frame(row.frame), fingerprints[i], wishes, changes,
                       result);
     }
     first = rows->back().frame + 1;

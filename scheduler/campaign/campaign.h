@@ -36,6 +36,11 @@ Result<LockedCampaign> create_campaign(const std::filesystem::path& folder,
 /// Key in the store's meta: InputStamps of the frames' identities, as JSON (input_files.h).
 inline constexpr const char* kInputsKey = "inputs";
 
+/// Key in the store's meta: how the pictures of all frames that are done are encoded, as JSON.
+inline constexpr const char* kEncodingKey = "image";
+/// What is there; PNG in a store from before there was a choice.
+Result<ImageEncoding> wanted_encoding(const Campaign& campaign);
+
 /// Opens what create_campaign made. Not a campaign, or damaged: an error that says so.
 Result<Campaign> open_campaign(const std::filesystem::path& folder);
 
@@ -63,8 +68,9 @@ Status begin_run(Campaign& campaign);
 
 /// Makes store and disk agree, as a scheduler does when it starts: what is done and untouched
 /// (frame_fingerprint.h) stays, what lies complete in its final folder is taken over, all else is
-/// to be rendered, but for frames in quarantine; scratch folders are removed. With `verify`, every
-/// file is read, however untouched it looks.
+/// to be rendered, but for frames in quarantine; scratch folders are removed. A frame with a
+/// picture that is not encoded as wanted_encoding says is not complete. With `verify`, every file
+/// is read, however untouched it looks.
 Result<Reconciliation> reconcile(Campaign& campaign, bool verify);
 
 /// "seedframe resume DIR --frame N --workers 1".

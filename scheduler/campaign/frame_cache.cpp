@@ -25,10 +25,12 @@ std::string cache_key(const Json& provenance, const CampaignConfig& config) {
   Json made_with = provenance;
   made_with.erase("threads");
   const TwinCheck& check = config.labels.check;
-  return sha256_hex(canonical_json(Json{
+  Json key = {
       {"made_with", made_with},
       {"categories", config.categories},
-      {"check", {check.wanted, check.tolerance.inside_share, check.tolerance.outline_share}}}));
+      {"check", {check.wanted, check.tolerance.inside_share, check.tolerance.outline_share}}};
+  if (config.image.encoding != ImageEncoding{}) key["image"] = to_json(config.image.encoding);
+  return sha256_hex(canonical_json(key));
 }
 
 std::unique_ptr<FrameCache> FrameCache::open(const fs::path& folder) {

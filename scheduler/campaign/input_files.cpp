@@ -78,6 +78,22 @@ Result<std::map<std::int64_t, std::string>> changed_frames(const Campaign& campa
   return changed;
 }
 
+/// Frames that are done, and whose picture is to be another file now.
+Result<std::vector<std::int64_t>> frames_to_encode_anew(const Campaign& campaign,
+                                                        const CampaignConfig& config) {
+  std::vector<std::int64_t> frames;
+  const Result<ImageEncoding> before = wanted_encoding(campaign);
+  if (!before) return forward_error(before);
+  const bool have_pictures = config.labels.source == LabelSource::kIndexPass;
+  if (*before == config.image.encoding || !have_pictures) return frames;
+  const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
+    if (row.state == FrameState::kDone) frames.push_back(row.frame);
+    return {};
+  });
+  if (!visited) return forward_error(visited);
+  return frames;
+}
+
 }  // namespace
 
 InputStamps input_stamps(const PreparedCampaign& prepared) {
@@ -131,7 +147,10 @@ Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign&
   if (!now.empty() && now == *before) return renewed;
   const auto changed = changed_frames(campaign, prepared);
   if (!changed) return forward_error(changed);
+  const auto encoded = frames_to_encode_anew(campaign, prepared.config);
+  if (!encoded) return forward_error(encoded);
   renewed.frames = static_cast<std::int64_t>(changed->size());
+  for (const std::int64_t frame : *encoded) renewed.frames += changed->contains(frame) ? 0 : 1;
   renewed.inputs = changed_inputs(*before, now);
   if (!changed->empty() &&
       std::all_of(renewed.inputs.begin(), renewed.inputs.end(), is_ourselves)) {
@@ -145,6 +164,11 @@ Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign&
     for (const auto& [frame, id] : *changed) {
       if (Status done = campaign.store.renew(frame, id); !done) return done;
     }
+    for (const std::int64_t frame : *encoded) {
+      if (Status done = campaign.store.reset(frame); !done) return done;
+    }
+    const std::string encoding = canonical_json(to_json(prepared.config.image.encoding));
+    if (Status done = campaign.store.set_meta(kEncodingKey, encoding); !done) return done;
     return campaign.store.set_meta(kInputsKey, canonical_json(Json(now)));
   });
   if (!written) return forward_error(written);

@@ -29,7 +29,8 @@ struct RenewedFrames {
 };
 
 /// Gives frames that would come out as other ones, since an input has changed, their new identity:
-/// they are to be rendered again. Looks at the stamps first, and expands every frame only when they
+/// they are to be rendered again; so are those whose picture the config wants in another file now.
+/// Looks at the stamps first, and expands every frame only when they
 /// differ. kInput errors: another number of frames; frames that would change though no input has,
 /// so that the program itself must have.
 Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign& prepared);

@@ -5,6 +5,7 @@
 #include "campaign/color_config.h"
 #include "campaign/disk_space.h"
 #include "frames/frame_link.h"
+#include "image_files/image_writer.h"
 #include "render/sandbox.h"
 
 namespace seedframe {
@@ -58,6 +59,9 @@ Result<ColorManagement> load_color_management(const CampaignConfig& config,
                 config.image.place.file.empty() ? "image" : config.image.place.text(),
                 known.error().message);
   }
+  if (Status possible = check_encoding(config.image.encoding); !possible) {
+    return forward_error(possible);
+  }
   return color;
 }
 
@@ -72,7 +76,8 @@ RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, Provenance&
       cache_(FrameCache::open(setup.cache)),
       take_from_cache_(!setup.options.no_cache),
       finisher_(prepared.config.categories, prepared.config.labels.check,
-                1),  // the cores are the workers'
+                1,  // the cores are the workers'
+                prepared.config.image.encoding),
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),

@@ -22,7 +22,8 @@
 
 namespace seedframe {
 
-/// The colour config of a campaign, its view checked against it.
+/// The colour config of a campaign, its view checked against it, and that pictures can be written
+/// as it asks for.
 Result<ColorManagement> load_color_management(const CampaignConfig& config,
                                               const BlenderInfo& blender);
 

@@ -78,7 +78,12 @@ Json explanation_json(const Explanation& explanation, const ExplainArguments& ar
                {"draws", draws},
                {"attempts", attempts},
                {"render_again", render_again_command(arguments)}};
-  if (explanation.manifest) json["pixels"] = explanation.manifest->pixel_hashes;
+  if (explanation.manifest) {
+    json["pixels"] = explanation.manifest->pixel_hashes;
+    if (explanation.manifest->pixel_hashes.contains("image")) {
+      json["image"] = to_json(explanation.manifest->image);
+    }
+  }
   return json;
 }
 
@@ -96,6 +101,10 @@ void print_explanation(const Explanation& explanation, const Campaign& campaign,
   if (explanation.manifest) {
     for (const auto& [pass, hash] : explanation.manifest->pixel_hashes) {
       fmt::print("  {:<9}{}\n", pass, hash);
+    }
+    const Manifest& manifest = *explanation.manifest;
+    if (manifest.pixel_hashes.contains("image")) {
+      fmt::print("picture    {} ({})\n", manifest.image_file(), describe(manifest.image));
     }
     fmt::print("files      {}\n", campaign.files.frame(row.frame).string());
   }

@@ -7,6 +7,7 @@
 #include "base/message_text.h"
 #include "base/nearest_name.h"
 #include "config/determinism_section.h"
+#include "config/image_section.h"
 #include "config/plan_sections.h"
 #include "config/scene_sections.h"
 #include "config/section_reader.h"
@@ -47,30 +48,6 @@ RenderConfig read_render(SectionReader& campaign, Diagnostics& errors) {
   render.persistent_data = section.flag("persistent_data", render.persistent_data);
   section.refuse_other_keys();
   return render;
-}
-
-ImageConfig read_image(SectionReader& campaign, Diagnostics& errors) {
-  ImageConfig image;
-  const auto node = campaign.find("image");
-  if (!node) return image;
-  image.place = node->place();
-  SectionReader section(*node, errors);
-  ImageSettings& settings = image.settings;
-  settings.display = section.text("display", settings.display);
-  settings.view = section.text("view", settings.view);
-  settings.look = section.text("look", settings.look);
-  settings.exposure_stops = section.constant("exposure_stops", settings.exposure_stops);
-  settings.gamma = section.positive("gamma", settings.gamma);
-  if (const auto ocio = section.find("ocio_config")) {
-    image.ocio_config = ocio->named_path(errors);
-    std::error_code missing;
-    if (image.ocio_config && !std::filesystem::is_regular_file(*image.ocio_config, missing)) {
-      errors.add(ocio->place(), "expected the path of an OpenColorIO config, found " +
-                                    ocio->description() + " (paths start at the config's folder)");
-    }
-  }
-  section.refuse_other_keys();
-  return image;
 }
 
 LabelSource read_label_source(const ConfigNode& node, Diagnostics& errors) {
@@ -250,7 +227,7 @@ Result<CampaignConfig> read_campaign_config(const std::string& text,
   config.material_folders = read_folders(section, "material_folders");
   config.render = read_render(section, errors);
   config.determinism = read_determinism(section, config.render);
-  config.image = read_image(section, errors);
+  config.image = read_image(section, config.render);
   config.labels = read_labels(section, errors);
   if (const auto node = section.find("variables")) {
     SectionReader variables(*node, errors);

@@ -13,6 +13,7 @@
 #include "base/isa.h"
 #include "config/values.h"
 #include "spec/frame_spec.h"
+#include "spec/image_encoding.h"
 #include "spec/image_settings.h"
 #include "spec/twin_check.h"
 
@@ -94,6 +95,7 @@ struct LabelConfig {
 struct ImageConfig {
   ImageSettings settings;
   std::optional<std::filesystem::path> ocio_config;  ///< none: Blender's own
+  ImageEncoding encoding;
   Place place;
 };
 

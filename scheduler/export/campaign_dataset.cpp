@@ -49,6 +49,7 @@ Result<CampaignDataset> campaign_dataset(const Campaign& campaign,
   dataset.assets = std::move(*assets);
   dataset.keypoints = class_keypoints(dataset.assets, dataset.categories);
   dataset.has_images = config.labels.source == LabelSource::kIndexPass;
+  dataset.image_format = config.image.encoding.format;
   dataset.has_depth = config.render.depth;
   dataset.frames = [&campaign] {
     return [frames = std::make_shared<DoneFrames>(campaign)] { return frames->next(); };

@@ -30,11 +30,12 @@ using FrameCursor = std::function<Result<std::optional<CommittedFrame>>()>;
 
 struct Dataset {
   std::string name;
-  std::uint64_t seed = 0;                 ///< of the campaign; the splits' too
-  std::vector<std::string> categories;    ///< category k of labels.json is categories[k - 1]
-  std::vector<ClassKeypoints> keypoints;  ///< one for each category
-  std::vector<OfferedAsset> assets;       ///< that a frame may hold, by name
-  bool has_images = true;                 ///< false: labels only, nothing was rendered
+  std::uint64_t seed = 0;                        ///< of the campaign; the splits' too
+  std::vector<std::string> categories;           ///< category k of labels.json is categories[k - 1]
+  std::vector<ClassKeypoints> keypoints;         ///< one for each category
+  std::vector<OfferedAsset> assets;              ///< that a frame may hold, by name
+  bool has_images = true;                        ///< false: labels only, nothing was rendered
+  ImageFormat image_format = ImageFormat::kPng;  ///< of their pictures
   bool has_depth = false;
   std::function<FrameCursor()> frames;  ///< starts at the first frame
 };

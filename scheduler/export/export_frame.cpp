@@ -8,7 +8,11 @@
 namespace seedframe {
 
 PlacedFile image_at(const std::filesystem::path& path, const ExportFrame& frame) {
-  return {path, frame.frame.folder / frame_files::kImage, frame.image_sha256};
+  return {path, frame.frame.folder / frame.loaded.image_file, frame.loaded.image_sha256};
+}
+
+std::string image_name(const ExportFrame& frame) {
+  return frame.stem + std::filesystem::path(frame.loaded.image_file).extension().string();
 }
 
 Result<ExportInstance> whole_instance(const CommittedFrame& frame, const LoadedFrame& loaded,

@@ -29,7 +29,6 @@ struct ExportFrame {
   LoadedFrame loaded;
   std::string split;  ///< its name
   std::string stem;   ///< "000042"
-  std::string image_sha256;
   std::vector<ExportInstance> instances;
   Counts counts;  ///< of what was exported and what was left out
 
@@ -37,6 +36,9 @@ struct ExportFrame {
   ExportFrame(ExportFrame&&) = delete;  // the instances look into it
   ExportFrame& operator=(ExportFrame&&) = delete;
 };
+
+/// The image's name in exports, "000042.png": the ending is that of its file.
+std::string image_name(const ExportFrame& frame);
 
 /// The frame's image, to be placed at a path of the export.
 PlacedFile image_at(const std::filesystem::path& path, const ExportFrame& frame);

@@ -121,11 +121,8 @@ class ExportRun {
   Result<std::unique_ptr<ExportFrame>> load(const FrameReader& files, const FrameTask& task) const {
     auto loaded = files.load(dataset_.categories);
     if (!loaded) return forward_error(loaded);
-    auto selected =
-        select_instances(task.frame, std::move(*loaded),
-                         options_.splits[static_cast<std::size_t>(task.split)].name, options_);
-    if (selected) (*selected)->image_sha256 = files.sha256(frame_files::kImage);
-    return selected;
+    return select_instances(task.frame, std::move(*loaded),
+                            options_.splits[static_cast<std::size_t>(task.split)].name, options_);
   }
 
   void take(FrameTask& task) {

@@ -45,10 +45,10 @@ std::optional<EarlierExport::Part> FormatExport::take_earlier(std::int64_t frame
 bool FormatExport::reuse(const EarlierExport::Part& part, const FrameReader& files,
                          FrameRecord& record) const {
   if (!part.whole || part.entry.key != files.key()) return false;
-  const std::string image_sha256 = files.sha256(frame_files::kImage);
+  const std::string image_sha256 = files.sha256(files.image_file());
   for (const IndexEntry::File& file : part.entry.files) {
     if (options_.link_images && file.hash == content_hash_of_sha256(image_sha256)) {
-      record.placed.push_back({file.path, files.path(frame_files::kImage), image_sha256});
+      record.placed.push_back({file.path, files.path(files.image_file()), image_sha256});
       continue;
     }
     const fs::path source = earlier_->folder() / file.path;

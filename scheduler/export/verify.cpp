@@ -77,7 +77,6 @@ class Verification {
     auto selected = select_instances(task.frame, std::move(*loaded),
                                      options.splits[static_cast<std::size_t>(split)].name, options);
     if (!selected) return forward_error(selected);
-    (*selected)->image_sha256 = files->sha256(frame_files::kImage);
     if (!task.part) {
       task.differences.emplace_back("is not in the export");
       return {};
@@ -119,7 +118,7 @@ class Verification {
   WrittenFrame read_files(VerifyTask& task, const ExportFrame& frame) const {
     WrittenFrame written;
     written.chunks = task.part->chunks;
-    const std::string image = content_hash_of_sha256(frame.image_sha256);
+    const std::string image = content_hash_of_sha256(frame.loaded.image_sha256);
     for (const IndexEntry::File& file : task.part->entry.files) {
       auto bytes = read_file(folder_ / file.path);
       if (!bytes) {

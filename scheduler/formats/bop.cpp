@@ -119,7 +119,7 @@ class Bop : public ExportFormat {
       record.files.push_back({scene + "depth/" + frame.stem + ".png", encode_png(depth.units)});
     }
     if (dataset_.has_images) {
-      record.placed.push_back(image_at(scene + "rgb/" + frame.stem + ".png", frame));
+      record.placed.push_back(image_at(scene + "rgb/" + image_name(frame), frame));
     }
     auto entries = entries_of(frame, depth);
     if (!entries) return forward_error(entries);
@@ -277,7 +277,7 @@ class Bop : public ExportFormat {
 
   static std::string coco_image_text(const ExportFrame& frame) {
     const FrameLabels& labels = frame.loaded.labels;
-    return canonical_json({{"file_name", "rgb/" + frame.stem + ".png"},
+    return canonical_json({{"file_name", "rgb/" + image_name(frame)},
                            {"height", labels.height},
                            {"id", frame.frame.index},
                            {"width", labels.width}});
@@ -301,6 +301,14 @@ class Bop : public ExportFormat {
 
 Result<std::unique_ptr<ExportFormat>> make_bop(const Dataset& dataset,
                                                const ExportOptions& options) {
+  const bool readable =
+      dataset.image_format == ImageFormat::kPng || dataset.image_format == ImageFormat::kJpeg;
+  if (dataset.has_images && !readable) {
+    return fail(ErrorKind::kInput,
+                "BOP's tools look for images that end in .png or .jpg, and those of campaign '{}' "
+                "are {}: submit it with 'image.format=png' or 'jpeg', or export to another format",
+                dataset.name, name_of(dataset.image_format));
+  }
   return std::make_unique<Bop>(dataset, options);
 }
 

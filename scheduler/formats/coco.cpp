@@ -76,7 +76,7 @@ class CocoInstances : public ExportFormat {
     FrameRecord record;
     record.counts = frame.counts;
     at(record.counts, Count::kAnnotations) = 0;
-    record.chunks.push_back({0, kCocoImages, coco_image(frame, frame.stem + ".png")});
+    record.chunks.push_back({0, kCocoImages, coco_image(frame, image_name(frame))});
     for (const ExportInstance& instance : frame.instances) {
       if (!wanted(instance)) continue;
       ++at(record.counts, Count::kAnnotations);
@@ -92,7 +92,7 @@ class CocoInstances : public ExportFormat {
            coco_annotation(frame, instance, coco_rle(instance.mask), *keypoints)});
     }
     if (dataset_.has_images) {
-      record.placed.push_back(image_at("images/" + frame.split + "/" + frame.stem + ".png", frame));
+      record.placed.push_back(image_at("images/" + frame.split + "/" + image_name(frame), frame));
     }
     return record;
   }
@@ -104,7 +104,7 @@ class CocoInstances : public ExportFormat {
     std::vector<std::string> found;
     std::size_t next = 0;
     const auto image = parse_json(written.chunks.empty() ? "" : written.chunks[next++].text, "");
-    if (!image || canonical_json(*image) != coco_image(frame, frame.stem + ".png")) {
+    if (!image || canonical_json(*image) != coco_image(frame, image_name(frame))) {
       found.emplace_back("the entry of the image is another");
     }
     for (const ExportInstance& instance : frame.instances) {

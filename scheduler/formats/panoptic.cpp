@@ -42,11 +42,11 @@ class CocoPanoptic : public ExportFormat {
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     FrameRecord record;
     record.counts = frame.counts;
-    record.chunks.push_back({0, kCocoImages, coco_image(frame, frame.stem + ".png")});
+    record.chunks.push_back({0, kCocoImages, coco_image(frame, image_name(frame))});
     record.chunks.push_back({0, kCocoAnnotations, entry(frame)});
     record.files.push_back({png_path(frame), encode_png(segments(frame), PngContent::kLabels)});
     if (dataset_.has_images) {
-      record.placed.push_back(image_at("images/" + frame.split + "/" + frame.stem + ".png", frame));
+      record.placed.push_back(image_at("images/" + frame.split + "/" + image_name(frame), frame));
     }
     return record;
   }

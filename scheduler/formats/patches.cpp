@@ -1,8 +1,9 @@
 #include "formats/patches.h"
 
 #include "formats/class_folders.h"
+#include "image/crop.h"
 #include "image/png_file.h"
-#include "image/resize.h"
+#include "image_files/resampling.h"
 
 namespace seedframe {
 namespace {
@@ -30,7 +31,9 @@ class Patches : public ExportFormat {
     FrameRecord record;
     record.counts = frame.counts;
     for (const ExportInstance& instance : frame.instances) {
-      record.files.push_back({path(frame, instance), encode_png(patch(frame, instance))});
+      const auto pixels = patch(frame, instance);
+      if (!pixels) return forward_error(pixels);
+      record.files.push_back({path(frame, instance), encode_png(*pixels)});
     }
     return record;
   }
@@ -53,9 +56,10 @@ class Patches : public ExportFormat {
         found.push_back(png.error().message);
         continue;
       }
-      const Image<std::uint8_t> expected = patch(frame, instance);
-      if (png->width != expected.width || png->height != expected.height ||
-          png->values != expected.values) {
+      const auto expected = patch(frame, instance);
+      if (!expected) return {expected.error().message};
+      if (png->width != expected->width || png->height != expected->height ||
+          png->values != expected->values) {
         found.push_back(name + " is not the object's patch");
       }
     }
@@ -73,12 +77,13 @@ class Patches : public ExportFormat {
                        instance.label->id);
   }
 
-  Image<std::uint8_t> patch(const ExportFrame& frame, const ExportInstance& instance) const {
+  Result<Image<std::uint8_t>> patch(const ExportFrame& frame,
+                                    const ExportInstance& instance) const {
     const PixelRect& box = instance.box();
     Image<std::uint8_t> rectangle =
         cropped(*frame.loaded.image, box.x, box.y, box.width, box.height);
     if (options_.patch_size == 0) return rectangle;
-    return resized(rectangle, options_.patch_size, options_.patch_size);
+    return resampled(rectangle, options_.patch_size, options_.patch_size);
   }
 
   const Dataset& dataset_;

@@ -32,7 +32,7 @@ class WebDataset : public ExportFormat {
     FrameRecord record;
     record.counts = frame.counts;
     std::string sample;
-    const auto add = [&](const char* suffix, std::string_view content) -> Status {
+    const auto add = [&](const std::string& suffix, std::string_view content) -> Status {
       const auto member = tar_member(frame.stem + suffix, content);
       if (!member) return forward_error(member);
       sample += *member;
@@ -43,9 +43,12 @@ class WebDataset : public ExportFormat {
     }
     if (Status added = add(".json", annotations(frame)); !added) return forward_error(added);
     if (dataset_.has_images) {
-      const auto image = read_file(frame.frame.folder / frame_files::kImage);
+      const auto image = read_file(frame.frame.folder / frame.loaded.image_file);
       if (!image) return forward_error(image);
-      if (Status added = add(".png", *image); !added) return forward_error(added);
+      if (Status added =
+              add(std::filesystem::path(frame.loaded.image_file).extension().string(), *image);
+          !added)
+        return forward_error(added);
     }
     record.chunks.push_back({0, 0, std::move(sample)});
     return record;
@@ -60,7 +63,7 @@ class WebDataset : public ExportFormat {
     if (!members || members->size() != expected ||
         (*members)[0].first != frame.stem + ".instances.png" ||
         (*members)[1].first != frame.stem + ".json" ||
-        (expected == 3 && (*members)[2].first != frame.stem + ".png")) {
+        (expected == 3 && (*members)[2].first != image_name(frame))) {
       return {"its members in the tar are others"};
     }
     std::vector<std::string> found;
@@ -83,7 +86,7 @@ class WebDataset : public ExportFormat {
       }
       if (!difference.empty()) found.push_back(instance.label->name + ": " + difference);
     }
-    if (expected == 3 && sha256_hex((*members)[2].second) != frame.image_sha256) {
+    if (expected == 3 && sha256_hex((*members)[2].second) != frame.loaded.image_sha256) {
       found.push_back((*members)[2].first + " is another image");
     }
     return found;

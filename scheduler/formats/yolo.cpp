@@ -114,7 +114,7 @@ class Yolo : public ExportFormat {
     }
     record.files.push_back({label_path(frame), std::move(rows)});
     if (dataset_.has_images) {
-      record.placed.push_back(image_at("images/" + frame.split + "/" + frame.stem + ".png", frame));
+      record.placed.push_back(image_at("images/" + frame.split + "/" + image_name(frame), frame));
     }
     return record;
   }

@@ -5,6 +5,10 @@
 namespace seedframe {
 namespace fs = std::filesystem;
 
+std::string frame_files::image(ImageFormat format) {
+  return std::string("image") + ending_of(format);
+}
+
 std::string frame_stem(std::int64_t frame) { return fmt::format("{:06}", frame); }
 
 fs::path CampaignFiles::worker_log(int worker) const {

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "spec/image_encoding.h"
+
 namespace seedframe {
 
 /// The folder of one campaign. Frames are numbered from 0 over the whole campaign.
@@ -45,7 +47,6 @@ class CampaignFiles {
 namespace frame_files {
 inline constexpr const char* kSpec = "frame.json";
 inline constexpr const char* kPasses = "passes.exr";
-inline constexpr const char* kImage = "image.png";
 inline constexpr const char* kInstances = "instances.png";
 inline constexpr const char* kSemantic = "semantic.png";
 inline constexpr const char* kDepth = "depth.exr";
@@ -56,6 +57,8 @@ inline constexpr const char* kManifest = "manifest.json";
 inline constexpr const char* kTwin = "twin.png";              ///< ids as in instances.png
 inline constexpr const char* kDifference = "difference.png";  ///< see difference_image
 inline constexpr const char* kReason = "reason.txt";
+/// The picture: "image.png", "image.jpg", "image.webp" or "image.tif".
+std::string image(ImageFormat format);
 }  // namespace frame_files
 
 /// The stem that a frame has in every export: "000042".

@@ -11,6 +11,7 @@
 #include "image/pass_reader.h"
 #include "image/pixel_hash.h"
 #include "image/png_file.h"
+#include "image_files/image_writer.h"
 #include "twin/twin_comparison.h"
 
 namespace seedframe {
@@ -136,16 +137,19 @@ Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorM
   if (!tally) return forward_error(tally);
   const auto image = color.apply(passes->combined, task.spec.image);
   if (!image) return forward_error(image);
+  const auto picture = encode_image(*image, encoding_);
+  if (!picture) return forward_error(picture);
 
   FrameWriter writer(task.attempt_folder);
   if (Status labelled = write_labels(task, categories_, ids, *twin, writer); !labelled) {
     return forward_error(labelled);
   }
-  writer.write(frame_files::kImage, encode_png(*image));
+  writer.write(frame_files::image(encoding_.format), *picture);
   writer.make(frame_files::kPasses, [&](const fs::path& path) {
     return copy_without_metadata(rendered_passes(task.attempt_folder), path);
   });
   write_data_passes(passes->depth, passes->normal, writer);
+  writer.manifest().image = encoding_;
   writer.manifest().pixel_hashes = passes->pixel_hashes;
   writer.manifest().pixel_hashes["image"] = pixel_hash(*image, "R,G,B");
   Result<FinishedFrame> finished = close(task, *tally, writer);

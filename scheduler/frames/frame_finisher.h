@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "image/color_management.h"
 #include "spec/frame_spec.h"
+#include "spec/image_encoding.h"
 #include "spec/twin_check.h"
 #include "twin/twin.h"
 
@@ -34,10 +35,14 @@ std::filesystem::path rendered_passes(const std::filesystem::path& attempt_folde
 class FrameFinisher {
  public:
   /// `twin_threads` trace each frame.
-  FrameFinisher(std::vector<std::string> categories, const TwinCheck& check, int twin_threads)
-      : categories_(std::move(categories)), check_(check), tracer_(twin_threads) {}
+  FrameFinisher(std::vector<std::string> categories, const TwinCheck& check, int twin_threads,
+                const ImageEncoding& encoding = {})
+      : categories_(std::move(categories)),
+        check_(check),
+        tracer_(twin_threads),
+        encoding_(encoding) {}
 
-  /// Reads and checks the passes, compares them with the frame's twin, and writes image.png,
+  /// Reads and checks the passes, compares them with the frame's twin, and writes the picture,
   /// instances.png, semantic.png, labels.json, frame.json, the passes without dates, depth.exr and
   /// normal.exr when asked for, and the manifest. A frame that differs from its twin is an error,
   /// and what was rendered is kept in the rejected folder.
@@ -50,6 +55,7 @@ class FrameFinisher {
   std::vector<std::string> categories_;
   TwinCheck check_;
   TwinTracer tracer_;
+  ImageEncoding encoding_;
 };
 
 }  // namespace seedframe

@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "base/sha256.h"
 #include "frames/campaign_files.h"
+#include "frames/frame_image.h"
 #include "image/exr_file.h"
 #include "image/png_file.h"
 
@@ -85,7 +86,7 @@ tl::unexpected<Error> in_frame(const CommittedFrame& frame, const Result<T>& res
   return fail(ErrorKind::kCorrupt, "frame {}: {}", frame.index, result.error().message);
 }
 
-Status check_hash(const CommittedFrame& frame, const char* name, const Manifest& manifest,
+Status check_hash(const CommittedFrame& frame, const std::string& name, const Manifest& manifest,
                   const std::string& sha256) {
   const auto file = manifest.files.find(name);
   if (file != manifest.files.end() && file->second.sha256 == sha256) return {};
@@ -106,7 +107,7 @@ Result<std::string> read_checked(const CommittedFrame& frame, const char* name,
   return bytes;
 }
 
-Status check_file(const CommittedFrame& frame, const char* name, const Manifest& manifest) {
+Status check_file(const CommittedFrame& frame, const std::string& name, const Manifest& manifest) {
   const auto sha256 = sha256_of_file(frame.folder / name);
   if (!sha256) {
     return fail(ErrorKind::kCorrupt, "frame {}: {}; {}", frame.index, sha256.error().message,
@@ -137,7 +138,7 @@ Result<FrameReader> FrameReader::open(const CommittedFrame& frame, const FramePa
   if (!instances) return forward_error(instances);
   reader.instances_ = std::move(*instances);
   if (parts.image_file || parts.image_pixels) {
-    const Status image = check_file(frame, frame_files::kImage, reader.manifest_);
+    const Status image = check_file(frame, reader.image_file(), reader.manifest_);
     if (!image) return forward_error(image);
   }
   if (parts.depth) {
@@ -147,7 +148,7 @@ Result<FrameReader> FrameReader::open(const CommittedFrame& frame, const FramePa
   return reader;
 }
 
-std::string FrameReader::sha256(const char* name) const {
+std::string FrameReader::sha256(const std::string& name) const {
   const auto found = manifest_.files.find(name);
   return found == manifest_.files.end() ? std::string() : found->second.sha256;
 }
@@ -161,12 +162,15 @@ Result<LoadedFrame> FrameReader::load(const std::vector<std::string>& categories
   auto ids = decode_png16(instances_, (frame_.folder / frame_files::kInstances).string());
   if (!ids) return in_frame(frame_, ids);
   LoadedFrame loaded{std::move(*labels), std::move(*ids), {}, {}};
+  loaded.image_file = image_file();
+  loaded.image_sha256 = sha256(loaded.image_file);
   if (Status known = check_categories(categories, frame_, loaded.labels); !known) {
     return forward_error(known);
   }
   if (Status agree = check_agreement(frame_, loaded); !agree) return forward_error(agree);
   if (parts_.image_pixels) {
-    auto image = read_png8(frame_.folder / frame_files::kImage);
+    auto image = read_frame_image(frame_.folder, manifest_.image.format);
+    if (!image && image.error().kind != ErrorKind::kCorrupt) return forward_error(image);
     if (!image) return in_frame(frame_, image);
     loaded.image = std::move(*image);
   }

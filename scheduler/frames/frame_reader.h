@@ -23,7 +23,7 @@ struct CommittedFrame {
 
 /// Which files of a frame are needed beside its labels.
 struct FrameParts {
-  bool image_file = false;    ///< image.png, as it is
+  bool image_file = false;    ///< the picture, as it is
   bool image_pixels = false;  ///< the same, decoded
   bool depth = false;
 };
@@ -33,6 +33,8 @@ struct LoadedFrame {
   Image<std::uint16_t> instance_ids;
   std::optional<Image<std::uint8_t>> image;  ///< RGB
   std::optional<Image<float>> depth;         ///< planar, metres
+  std::string image_file = "image.png";      ///< of the picture, in the frame's folder
+  std::string image_sha256 = {};             ///< of that file
 };
 
 /// The files of a frame, found to be those of its manifest.
@@ -43,9 +45,11 @@ class FrameReader {
 
   /// Changes whenever any file of the frame does, its id or its scene.
   const std::string& key() const { return key_; }
-  std::filesystem::path path(const char* name) const { return frame_.folder / name; }
+  /// Name of the picture's file.
+  std::string image_file() const { return manifest_.image_file(); }
+  std::filesystem::path path(const std::string& name) const { return frame_.folder / name; }
   /// As the manifest has it; empty for a file that the frame does not have.
-  std::string sha256(const char* name) const;
+  std::string sha256(const std::string& name) const;
 
   /// Decodes, and compares labels and pixels. kCorrupt errors name the frame, and the instance:
   /// another area or box than the pixels have, an id that only one of the files knows, other

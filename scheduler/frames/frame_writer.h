@@ -17,7 +17,7 @@ class FrameWriter {
  public:
   explicit FrameWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  void write(const char* name, const std::string& bytes) {
+  void write(const std::string& name, const std::string& bytes) {
     if (!status_) return;
     status_ = write_file_unsynced(folder_ / name, bytes);
     manifest_.files[name] = {bytes.size(), sha256_hex(bytes)};

@@ -6,23 +6,31 @@
 
 namespace seedframe {
 namespace fs = std::filesystem;
-namespace {}  // namespace
 
 std::string Manifest::pixel_hash() const { return sha256_hex(canonical_json(pixel_hashes)); }
+
+std::string Manifest::image_file() const { return frame_files::image(image.format); }
+
+bool Manifest::picture_is(const ImageEncoding& encoding) const {
+  return !pixel_hashes.contains("image") || image == encoding;
+}
 
 Json to_json(const Manifest& manifest) {
   Json files = Json::object();
   for (const auto& [name, file] : manifest.files) {
     files[name] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
   }
-  return {{"version", kManifestVersion},
-          {"frame_id", manifest.frame_id},
-          {"pixels", manifest.pixel_hashes},
-          {"twin",
-           {{"pixels", manifest.twin.pixels},
-            {"inside_px", manifest.twin.inside_px},
-            {"edge_px", manifest.twin.edge_px}}},
-          {"files", files}};
+  Json json = {{"version", kManifestVersion},
+               {"frame_id", manifest.frame_id},
+               {"pixels", manifest.pixel_hashes},
+               {"twin",
+                {{"pixels", manifest.twin.pixels},
+                 {"inside_px", manifest.twin.inside_px},
+                 {"edge_px", manifest.twin.edge_px}}},
+               {"files", files}};
+  // Left out where nothing was asked for, as in all manifests from before there was a choice.
+  if (manifest.image != ImageEncoding{}) json["image"] = to_json(manifest.image);
+  return json;
 }
 
 namespace {
@@ -61,6 +69,11 @@ Result<Manifest> parse_manifest(std::string_view text, const std::string& what) 
   const auto twin = read_tally(*json, what);
   if (!twin) return forward_error(twin);
   Manifest manifest{*frame_id, *pixels, {}, *twin};
+  if (const auto image = json->find("image"); image != json->end()) {
+    const auto encoding = image_encoding_from_json(*image, what);
+    if (!encoding) return forward_error(encoding);
+    manifest.image = *encoding;
+  }
   for (const auto& [name, entry] : *files) {
     const auto bytes = json_field<std::uint64_t>(entry, "bytes", what);
     if (!bytes) return forward_error(bytes);

@@ -9,6 +9,7 @@
 
 #include "base/canonical_json.h"
 #include "base/error.h"
+#include "spec/image_encoding.h"
 #include "spec/twin_check.h"
 
 namespace seedframe {
@@ -21,9 +22,16 @@ struct Manifest {
     std::string sha256;
   };
   std::string frame_id;
-  std::map<std::string, std::string> pixel_hashes;  ///< by pass; "image" for image.png
-  std::map<std::string, File> files;                ///< all but the manifest itself
-  TwinTally twin;
+  /// By pass; "image" is the picture before it was encoded.
+  std::map<std::string, std::string> pixel_hashes;
+  std::map<std::string, File> files;  ///< all but the manifest itself
+  TwinTally twin = {};
+  ImageEncoding image = {};  ///< of the picture; of no meaning where there is none
+
+  /// Whether there is no picture, or one that is encoded so.
+  bool picture_is(const ImageEncoding& encoding) const;
+  /// The picture's file name, if there is one: "image.png".
+  std::string image_file() const;
 
   /// SHA-256 over the canonical JSON of pixel_hashes: the frame's part of the dataset hash.
   std::string pixel_hash() const;

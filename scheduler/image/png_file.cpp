@@ -40,7 +40,8 @@ constexpr int kColorFilter = PNG_FILTER_AVG;  // noise: the mean of two neighbou
 constexpr int kLabelFilter = PNG_FILTER_UP;   // flat regions: rows repeat
 
 template <class T>
-std::string encode(const Image<T>& image, PngContent content, const Palette* palette = nullptr) {
+std::string encode(const Image<T>& image, PngContent content, std::optional<int> level = {},
+                   const Palette* palette = nullptr) {
   constexpr int kBitDepth = 8 * sizeof(T);
   const bool photo = image.channels == 3 && content == PngContent::kPhoto;
   const int color = palette != nullptr    ? PNG_COLOR_TYPE_PALETTE
@@ -60,8 +61,8 @@ std::string encode(const Image<T>& image, PngContent content, const Palette* pal
     png_set_PLTE(png, info, colors.data(), static_cast<int>(colors.size()));
   }
   if (photo) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  png_set_compression_strategy(png, kZlibStrategy);
-  png_set_compression_level(png, kZlibLevel);
+  png_set_compression_strategy(png, level ? Z_DEFAULT_STRATEGY : kZlibStrategy);
+  png_set_compression_level(png, level.value_or(kZlibLevel));
   png_set_filter(png, PNG_FILTER_TYPE_BASE, photo ? kColorFilter : kLabelFilter);
   png_write_info(png, info);
   if (kBitDepth == 16) png_set_swap(png);
@@ -216,14 +217,15 @@ Result<Image<T>> decode(std::string_view bytes, const std::string& what, bool co
 
 }  // namespace
 
-std::string encode_png(const Image<std::uint8_t>& image, PngContent content) {
+std::string encode_png(const Image<std::uint8_t>& image, PngContent content,
+                       std::optional<int> level) {
   assert(image.channels == 1 || image.channels == 3);
-  return encode(image, content);
+  return encode(image, content, level);
 }
 
 std::string encode_palette_png(const Image<std::uint8_t>& image, const Palette& palette) {
   assert(image.channels == 1 && !palette.empty() && palette.size() <= 256);
-  return encode(image, PngContent::kLabels, &palette);
+  return encode(image, PngContent::kLabels, std::nullopt, &palette);
 }
 
 std::string encode_png(const Image<std::uint16_t>& image) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +21,9 @@ enum class PngContent {
 };
 
 /// The bytes of a PNG file. image.channels: 1 (grey, always labels) or 3 (RGB) for uint8; 1 for
-/// uint16.
-std::string encode_png(const Image<std::uint8_t>& image, PngContent content = PngContent::kPhoto);
+/// uint16. `level`: of zlib, 0 (none) to 9, with its usual search; none: runs only, which is fast.
+std::string encode_png(const Image<std::uint8_t>& image, PngContent content = PngContent::kPhoto,
+                       std::optional<int> level = std::nullopt);
 std::string encode_png(const Image<std::uint16_t>& image);
 
 using Palette = std::vector<std::array<std::uint8_t, 3>>;  ///< at most 256 colours

@@ -7,7 +7,7 @@
 
 namespace seedframe::image_module {
 
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 
 enum class Values : std::int32_t { kUint8, kUint16, kHalf, kFloat, kOther };
 
@@ -33,12 +33,11 @@ struct ReadCalls {
 };
 
 struct WriteRequest {
-  const char* writer = "";  ///< "png", "jpeg", "webp", "tiff"
+  const char* writer = "";  ///< "jpeg", "webp", "tiff"
   std::int32_t width = 0;
   std::int32_t height = 0;
   const std::uint8_t* rgb = nullptr;
   const char* compression = "";  ///< as the library names it; empty: the writer's own
-  std::int32_t png_level = -1;   ///< of zlib, 0 … 9; -1: the library's own
 };
 
 struct ByteSink {

@@ -26,7 +26,7 @@ Manifest small_manifest(const std::string& frame_id) {
   Manifest manifest;
   manifest.frame_id = frame_id;
   for (const char* name :
-       {frame_files::kSpec, frame_files::kPasses, frame_files::kImage, frame_files::kInstances,
+       {frame_files::kSpec, frame_files::kPasses, "image.png", frame_files::kInstances,
         frame_files::kSemantic, frame_files::kDepth, frame_files::kNormal, frame_files::kLabels}) {
     manifest.files[name] = {std::char_traits<char>::length(kContent), sha256_hex(kContent)};
   }

@@ -75,7 +75,7 @@ camera: {target: [0, 0, 0], distance_m: {uniform: [0.2, 0.5]}}
   const Outcome exported = run(arguments);
   ASSERT_EQ(exported.exit_code, 0) << exported.errors;
   EXPECT_EQ(hash_of("c/exports"),
-            "9a22f52f7ddda66dbbdd657db354e2b1ae5fb3e4bbd5e03530452f11b2079288");
+            "6c4547e130b1480ce604d14eb0d8fa1e9034245b223d53ec6a865639bafa25ab");
 }
 
 }  // namespace

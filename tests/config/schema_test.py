@@ -117,6 +117,9 @@ class SchemaTest(unittest.TestCase):
             ("variables.scene", "{a: [1, b, 2cm], kind: {choice: [x, y]}, c: {hsv: [1, 1, 1]}, d: 3}"),
             ("sweep", "{values: {a: [1, 2], b: [{x: 1, y: text}]}, hold_draws: false}"),
             ("render.filter_width_px", "'1e0'"),
+            ("image", "{format: jpeg, quality: 80}"),
+            ("image.compression", "9"),
+            ("image", "{format: tiff, compression: none}"),
             ("world", "null"),
         ]:
             with self.subTest(f"{path}: {value}"):
@@ -131,6 +134,11 @@ class SchemaTest(unittest.TestCase):
             ("render.width", "{uniform: [1, 2]}"),
             ("render.passes", "[dept]"),
             ("image.gamma", "a + 1"),
+            ("image.format", "jpg"),
+            ("image.quality", "0"),
+            ("image.quality", "101"),
+            ("image.compression", "10"),
+            ("image.compression", "deflate"),
             ("camera.position", "[0, 0, 1]"),  # and distance_m
             ("camera.distance_m", None),
             ("camera.fov_deg", "{uniform: [1, 2, 3]}"),

@@ -175,7 +175,7 @@ TEST_P(EveryFormat, NeverReplacesAFolderThatIsNotAnExport) {
 }
 
 TEST_P(EveryFormat, LinksOrCopiesImages) {
-  const fs::path source = campaign_.frame_folder(0) / frame_files::kImage;
+  const fs::path source = campaign_.frame_folder(0) / "image.png";
   for (const bool link : {true, false, true}) {
     ExportOptions chosen = options();
     chosen.link_images = link;

@@ -93,7 +93,7 @@ class SyntheticDataset {
     ASSERT_TRUE(make_folders(folder));
     frames_.push_back({index, scene, folder, std::string(60, 'f') + std::to_string(1000 + index)});
     truths_[index] = {ids, *labels};
-    ASSERT_TRUE(write_quickly(folder / frame_files::kImage, encode_png(image)));
+    ASSERT_TRUE(write_quickly(folder / "image.png", encode_png(image)));
     ASSERT_TRUE(write_quickly(folder / frame_files::kInstances, encode_png(ids)));
     ASSERT_TRUE(write_quickly(folder / frame_files::kLabels, readable_json(to_json(*labels))));
     write_manifest(frames_.back());
@@ -103,7 +103,7 @@ class SyntheticDataset {
   static void write_manifest(const CommittedFrame& frame) {
     Manifest manifest;
     manifest.frame_id = frame.frame_id;
-    for (const char* name : {frame_files::kImage, frame_files::kInstances, frame_files::kLabels}) {
+    for (const char* name : {"image.png", frame_files::kInstances, frame_files::kLabels}) {
       const auto bytes = read_file(frame.folder / name);
       if (bytes) manifest.files[name] = {bytes->size(), sha256_hex(*bytes)};
     }

@@ -100,7 +100,7 @@ TEST_P(ExportCoco, ListsEveryImageAndCategory) {
     const fs::path path =
         summary->folder / "images" / "train" / image.at("file_name").get<std::string>();
     ASSERT_TRUE(fs::exists(path)) << path;
-    EXPECT_EQ(*read_file(path), *read_file(frame.folder / frame_files::kImage));
+    EXPECT_EQ(*read_file(path), *read_file(frame.folder / "image.png"));
   }
   EXPECT_EQ(summary->frames, 10);
   ASSERT_EQ(summary->splits.size(), 1U);

@@ -108,9 +108,9 @@ TEST_F(FrameReaderTest, NoticesAMaskThatWasChangedAfterwards) {
 }
 
 TEST_F(FrameReaderTest, NoticesAnImageThatWasChangedAfterwards) {
-  std::string bytes = *read_file(file(frame_files::kImage));
+  std::string bytes = *read_file(file("image.png"));
   bytes[bytes.size() / 2] ^= 1;
-  ASSERT_TRUE(write_file(file(frame_files::kImage), bytes));
+  ASSERT_TRUE(write_file(file("image.png"), bytes));
   expect_corrupt({"image.png has changed"});
 }
 
@@ -121,7 +121,7 @@ TEST_F(FrameReaderTest, TheKeyChangesWithAnyFileAndWithTheScene) {
   ++campaign_.frames().at(0).scene;
   EXPECT_NE(key(), before);
   --campaign_.frames().at(0).scene;
-  ASSERT_TRUE(write_file(file(frame_files::kImage), encode_png(Image<std::uint8_t>(12, 10, 3))));
+  ASSERT_TRUE(write_file(file("image.png"), encode_png(Image<std::uint8_t>(12, 10, 3))));
   campaign_.write_manifest(campaign_.frames().at(0));
   EXPECT_NE(key(), before);
 }

@@ -23,6 +23,20 @@ Image<T> textured(int width, int height, int channels) {
   return image;
 }
 
+TEST(PngFile, ALevelChangesBytesAndNoPixel) {
+  Image<std::uint8_t> image(64, 48, 3);
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    image.values[i] = static_cast<std::uint8_t>(i / 64 % 7);
+  }
+  const std::string stored = encode_png(image, PngContent::kPhoto, 0);
+  const std::string smallest = encode_png(image, PngContent::kPhoto, 9);
+  EXPECT_GT(stored.size(), image.values.size());
+  EXPECT_LT(smallest.size(), encode_png(image).size());
+  for (const std::string& bytes : {stored, smallest}) {
+    EXPECT_EQ(decode_png8(bytes, "it")->values, image.values);
+  }
+}
+
 TEST(PngFile, EightBitGreyComesBack) {
   const ScratchFolder folder;
   const auto image = textured<std::uint8_t>(17, 5, 1);

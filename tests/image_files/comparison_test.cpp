@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include <gtest/gtest.h>
+
+#include "image/difference.h"
 
 namespace seedframe {
 namespace {
@@ -41,6 +44,24 @@ TEST(ImageComparison, HasAnyNumberOfChannels) {
     EXPECT_DOUBLE_EQ(errors->max, 2.0) << channels;
     EXPECT_DOUBLE_EQ(errors->mean, 2.0 / (25 * channels)) << channels;
   }
+}
+
+// The program compares with difference_of, which also counts pixels and steps, knows of NaN, and
+// needs no library.
+TEST(ImageComparison, OurOwnFiguresAreThoseOfTheLibrary) {
+  std::mt19937 random(7);
+  Image<float> a(31, 17, 3);
+  Image<float> b(31, 17, 3);
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    a.values[i] = static_cast<float>(random() % 1000) / 500.0f;
+    b.values[i] = i % 3 == 0 ? a.values[i] : a.values[i] + static_cast<float>(i % 7) / 100.0f;
+  }
+  const auto theirs = errors_between(a, b);
+  ASSERT_TRUE(theirs) << theirs.error().message;
+  const ImageDifference ours = difference_of(a, b, StoredAs::kFloat);
+  EXPECT_NEAR(ours.max, theirs->max, 1e-6);
+  EXPECT_NEAR(ours.rms, theirs->rms, 1e-9);
+  EXPECT_NEAR(ours.psnr_db(1.0), theirs->psnr_db(1.0), 1e-5);
 }
 
 }  // namespace

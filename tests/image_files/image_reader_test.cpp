@@ -131,7 +131,7 @@ TEST(ImageReader, ADamagedFileIsReadOrRefusedButNeverEndsTheProgram) {
 }
 
 TEST(ImageReader, AJpegWhoseMiddleIsMissingIsRefused) {
-  std::string jpeg = *encode_image(colorful_image(200, 200), {.kind = ImageKind::kJpeg});
+  std::string jpeg = *encode_image(colorful_image(200, 200), {.format = ImageFormat::kJpeg});
   jpeg.erase(jpeg.size() / 2, jpeg.size() / 4);
   EXPECT_THAT(error_of(jpeg, ImageKind::kJpeg), HasSubstr("x is a damaged or cut JPEG"));
   jpeg.resize(jpeg.size() / 2);

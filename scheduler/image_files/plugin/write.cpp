@@ -15,13 +15,11 @@ constexpr const char* kNoDate = "    :  :     :  :  ";
 
 OIIO::ImageSpec spec_of(const WriteRequest& request) {
   OIIO::ImageSpec spec(request.width, request.height, 3, OIIO::TypeUInt8);
-  // As a PNG chunk. Elsewhere sRGB is what is assumed, and the TIFF writer makes an Exif directory
-  // of it that it does not finish in memory.
-  if (std::string_view(request.writer) == "png") spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("DateTime", kNoDate);
+  // No "oiio:ColorSpace": sRGB is what is assumed anyway, and the TIFF writer makes an Exif
+  // directory of it that it does not finish in memory.
+  if (std::string_view(request.writer) == "tiff") spec.attribute("DateTime", kNoDate);
   spec.attribute("jpeg:subsampling", "4:4:4");
   if (request.compression[0] != '\0') spec.attribute("compression", request.compression);
-  if (request.png_level >= 0) spec.attribute("png:compressionLevel", request.png_level);
   return spec;
 }
 

@@ -135,6 +135,23 @@ TEST_F(RealBlenderCampaign, OneWorkerTwoWorkersAndAKilledRunGiveTheSameBytes) {
   EXPECT_THAT(explained.output, HasSubstr("seedframe resume one --frame 7"));
 }
 
+TEST_F(RealBlenderCampaign, JpegsAreExportedAsTheyAre) {
+  auto arguments = submit("jpeg", "2");
+  arguments.insert(arguments.end(), {"--set", "image.format=jpeg"});
+  const Outcome made = run(arguments);
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  export_all("jpeg");
+  const std::string folder = (folder_ / "jpeg").string();
+  for (const char* script : {"decoders/agreement.py ", "pictures.py "}) {
+    const Outcome decoded = python(script + folder + " " + folder + "/exports");
+    EXPECT_EQ(decoded.exit_code, 0) << decoded.output;
+  }
+  const Outcome pages = python("run_pages.py " + folder + "/exports");
+  EXPECT_EQ(pages.exit_code, 0) << pages.output;
+  const Outcome verified = run({"export", "jpeg", "--verify"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.errors;
+}
+
 TEST_F(RealBlenderCampaign, AFrameIsTheSameInAnotherCampaignThatHoldsIt) {
   auto arguments = submit("few", "1");
   arguments.insert(arguments.end(), {"--frames", "2"});

@@ -63,7 +63,8 @@ def _images(dataset: Dataset, campaign: Campaign, report: Report) -> None:
             frame.frame_id,
         )
         report.check(same, f"{stem}: image entry {image}")
-        report.check(image["file_name"] == f"{stem}.png", f"{stem}: {image['file_name']}")
+        ending = frame.image.suffix if frame.image else ".png"
+        report.check(image["file_name"] == stem + ending, f"{stem}: {image['file_name']}")
 
 
 def check_entry(

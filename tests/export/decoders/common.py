@@ -6,7 +6,7 @@ Masks are bool arrays of shape (height, width), row 0 at the top. Pixel (r, c) c
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -49,11 +49,17 @@ class Dataset:
         return self.__dict__["by_stem"].get(stem, [])
 
 
-def image_readers(folder: Path, suffix: str = ".png") -> dict[str, Callable[[], bytes]]:
+# Endings of pictures, and what PIL calls their formats.
+PICTURES = {".png": "PNG", ".jpg": "JPEG", ".webp": "WEBP", ".tif": "TIFF"}
+
+
+def image_readers(
+    folder: Path, suffixes: Collection[str] = PICTURES
+) -> dict[str, Callable[[], bytes]]:
     """Readers of the images directly in a folder; none if there is no such folder."""
     if not folder.is_dir():
         return {}
-    return {p.stem: p.read_bytes for p in sorted(folder.iterdir()) if p.suffix == suffix}
+    return {p.stem: p.read_bytes for p in sorted(folder.iterdir()) if p.suffix in suffixes}
 
 
 def tight_box(mask: np.ndarray) -> tuple[int, int, int, int]:

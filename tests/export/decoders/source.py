@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import rle
-from common import tight_box
+from common import PICTURES, tight_box
 from PIL import Image
 
 LABELS_VERSION = 3
@@ -131,6 +131,24 @@ def _instance(entry: dict, ids: np.ndarray, categories: list[str], amodal: bool)
     )
 
 
+def _picture(folder: Path, size: tuple[int, int]) -> Path | None:
+    """The frame's picture: RGB, of the size, in the format that its ending and manifest say."""
+    manifest = json.loads((folder / "manifest.json").read_text())
+    names = [name for name in manifest["files"] if name.startswith("image.")]
+    if not names:
+        return None
+    (name,) = names
+    path = folder / name
+    picture = Image.open(path)
+    said = manifest.get("image", {"format": "png"})["format"].upper()
+    if not picture.format == PICTURES[path.suffix] == said:
+        raise ValueError(f"{path}: a {picture.format}, and the manifest says {said}")
+    if picture.mode != "RGB" or picture.size != size:
+        raise ValueError(f"{path}: {picture.mode}, {picture.size}, not RGB of {size}")
+    picture.load()
+    return path
+
+
 def read_frame(folder: Path, min_pixels: int, min_visible: float, amodal: bool) -> Frame:
     """One frame's folder, with the instances that pass the filters."""
     labels = json.loads((folder / "labels.json").read_text())
@@ -146,7 +164,7 @@ def read_frame(folder: Path, min_pixels: int, min_visible: float, amodal: bool) 
         and entry["area_px"] >= min_pixels
         and entry["visible_fraction"] >= min_visible
     ]
-    image = folder / "image.png"
+    image = _picture(folder, (labels["width"], labels["height"]))
     return Frame(
         index=int(folder.name),
         stem=folder.name,
@@ -156,7 +174,7 @@ def read_frame(folder: Path, min_pixels: int, min_visible: float, amodal: bool) 
         focal=tuple(labels["camera"]["focal_px"]),
         centre=tuple(labels["camera"]["center_px"]),
         instances=[_instance(e, ids, labels["categories"], amodal) for e in exported],
-        image=image if image.is_file() else None,
+        image=image,
         has_depth=(folder / "depth.exr").is_file(),
         twin_exact=labels["twin_exact"],
     )

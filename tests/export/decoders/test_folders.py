@@ -19,6 +19,7 @@ import voc
 import webdataset
 from compare import Report
 from examples import InFolder, mask_of, png
+from PIL import Image
 
 XML = """<annotation><folder>VOC2012</folder><filename>000003.jpg</filename>
 <size><width>3</width><height>2</height><depth>3</depth></size><segmented>1</segmented>
@@ -174,7 +175,36 @@ class Source(InFolder):
         self.write(f"{base}/labels.json", labels)
         ids = np.array([[0, 0, 7, 9], [0, 0, 0, 0]], np.uint16)
         self.write(f"{base}/instances.png", png(ids))
-        self.write(f"{base}/manifest.json", {"frame_id": "ab"})
+        self.write(f"{base}/manifest.json", {"frame_id": "ab", "files": {}})
+
+    def picture(self, name: str, content: str, **manifest: dict) -> None:
+        """A picture in the frame's folder, as PIL writes it."""
+        self.frame(3)
+        (labels,) = self.folder.glob("frames/*/*/labels.json")
+        document = json.loads(labels.read_text())
+        document["instances"][0]["amodal"]["in_image_px"] = 2
+        labels.write_text(json.dumps(document))
+        out = io.BytesIO()
+        Image.new("RGB", (4, 2), (200, 40, 40)).save(out, content)
+        base = labels.parent.relative_to(self.folder)
+        self.write(f"{base}/{name}", out.getvalue())
+        self.write(f"{base}/manifest.json", {"frame_id": "ab", "files": {name: {}}} | manifest)
+
+    def test_pictures(self) -> None:
+        for format, name in (("jpeg", "jpg"), ("webp", "webp"), ("tiff", "tif"), ("png", "png")):
+            self.picture(f"image.{name}", format, image={"format": format})
+            frame = source.read(self.folder).frames["001002"]
+            self.assertEqual(frame.image.name, f"image.{name}")
+        self.picture("image.png", "png")  # the manifest need not say so
+        self.assertTrue(source.read(self.folder).has_images)
+
+    def test_refuses_pictures_of_another_format_than_said(self) -> None:
+        self.picture("image.jpg", "png", image={"format": "jpeg"})
+        with self.assertRaisesRegex(ValueError, "a PNG, and the manifest says JPEG"):
+            source.read(self.folder)
+        self.picture("image.jpg", "jpeg")
+        with self.assertRaisesRegex(ValueError, "the manifest says PNG"):
+            source.read(self.folder)
 
     def test_read(self) -> None:
         self.frame(3)

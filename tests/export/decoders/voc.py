@@ -98,7 +98,7 @@ def load(folder: Path) -> Dataset:
     folder = Path(folder)
     base = folder / "VOCdevkit/VOC2012"
     dataset = Dataset(read_labelmap(base / "labelmap.txt"), {}, [])
-    dataset.images = image_readers(base / "JPEGImages", ".jpg")
+    dataset.images = image_readers(base / "JPEGImages", {".jpg"})
     main, segmentation = base / "ImageSets/Main", base / "ImageSets/Segmentation"
     for path in sorted(segmentation.glob("*.txt")):
         split = path.stem

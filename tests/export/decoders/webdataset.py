@@ -10,10 +10,10 @@ from pathlib import Path
 
 import coco
 import numpy as np
-from common import Annotation, Dataset
+from common import PICTURES, Annotation, Dataset
 from PIL import Image
 
-MEMBERS = {"json", "instances.png", "png"}
+LABELS = {"json", "instances.png"}
 
 
 def samples_of_shard(data: bytes) -> Iterator[tuple[str, dict[str, bytes]]]:
@@ -49,15 +49,17 @@ def _read_sample(stem: str, split: str, sample: dict[str, bytes], dataset: Datas
     size = entry["height"], entry["width"]
     if ids.shape != size:
         dataset.problems.append(f"{stem}: instances.png has another size than the JSON says")
-    if not {"json", "instances.png"} <= sample.keys() <= MEMBERS:
+    pictures = sample.keys() - LABELS
+    good = len(pictures) <= 1 and {f".{name}" for name in pictures} <= PICTURES.keys()
+    if not LABELS <= sample.keys() or not good:
         dataset.problems.append(f"{stem}: members {sorted(sample)}")
     if entry["frame"] != int(stem) or entry["image_id"] != int(stem) + 1:
         dataset.problems.append(f"{stem}: JSON of frame {entry['frame']}")
     dataset.splits[split].append(stem)
     dataset.scenes[stem] = entry["scene"]
     dataset.extras["images"][stem] = {k: v for k, v in entry.items() if k != "annotations"}
-    if "png" in sample:
-        dataset.images[stem] = lambda: sample["png"]
+    for name in pictures:
+        dataset.images[stem] = lambda: sample[name]
     left = ids.copy()
     for row in entry["annotations"]:
         image = {"file_name": stem, "height": size[0], "width": size[1]}

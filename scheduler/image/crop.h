@@ -1,4 +1,4 @@
-// Another number of pixels for an image.
+// A rectangle of an image.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,5 @@ namespace seedframe {
 
 /// Columns [x, x + width) of rows [y, y + height), all channels; they must be in the image.
 Image<std::uint8_t> cropped(const Image<std::uint8_t>& image, int x, int y, int width, int height);
-
-/// An RGB image in sRGB, resampled in linear light: a Mitchell filter where it becomes smaller,
-/// Catmull-Rom where it becomes larger. The shape is not kept.
-Image<std::uint8_t> resized(const Image<std::uint8_t>& image, int width, int height);
 
 }  // namespace seedframe
