@@ -4,7 +4,7 @@
 #
 #   scripts/reliability.sh [full]          everything: every call, 1,000 kills, 30 of them… takes about an hour on two cores
 #   scripts/reliability.sh quick [BUILD [SCRIPT]]
-#                                          a sample, in two minutes, into no report; of one script or of all;
+#                                          a sample, in two minutes, into no report: of one script, or all;
 #                                          BUILD is build/release by default
 set -u
 cd "$(dirname "$0")/.."
