@@ -32,16 +32,15 @@ ResourceLimits worker_limits(const PoolOptions& options) {
 }
 
 /// With what only the campaign's folder says.
-PoolOptions pool_options(const RunOptions& options, const CampaignFiles& files) {
-  PoolOptions pool = options.pool;
-  WorkerOptions& worker = pool.worker;
+WorkerOptions worker_options(const RunOptions& options, const CampaignFiles& files) {
+  WorkerOptions worker = options.pool.worker;
   worker.log_path = [files](int number) { return files.worker_log(number); };
-  worker.limits = worker_limits(pool);
+  worker.limits = worker_limits(options.pool);
   if (options.sandbox) worker.wrapper = sandbox_arguments(files.work());
   // A killed Blender leaves its temporary folder behind; here it goes with the rest of work/.
   std::error_code ignored;
   worker.environment.emplace("TMPDIR", fs::absolute(files.work(), ignored).string());
-  return pool;
+  return worker;
 }
 
 }  // namespace
@@ -82,7 +81,8 @@ RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, Provenance&
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),
       queue_(std::make_unique<FinishQueue>(kFinishThreads)),
-      pool_(std::make_unique<WorkerPool>(pool_options(setup.options, campaign.files), *this)) {}
+      executor_(worker_options(setup.options, campaign.files)),
+      pool_(std::make_unique<WorkerPool>(setup.options.pool, executor_, *this)) {}
 
 RenderRun::~RenderRun() {
   queue_.reset();

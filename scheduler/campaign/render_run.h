@@ -19,6 +19,7 @@
 #include "campaign/store_writer.h"
 #include "frames/frame_finisher.h"
 #include "image/color_management.h"
+#include "render/local_executor.h"
 
 namespace seedframe {
 
@@ -81,6 +82,7 @@ class RenderRun : public CampaignRun, public RenderClient {
   Status error_;
   std::unique_ptr<StoreWriter> writer_;  ///< the only one to use the store and the observer
   std::unique_ptr<FinishQueue> queue_;
+  LocalExecutor executor_;
   std::unique_ptr<WorkerPool> pool_;
 };
 

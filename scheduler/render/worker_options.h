@@ -1,6 +1,7 @@
 // How workers of this machine are started.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "render/child_process.h"
+#include "render/memory.h"
 #include "render/worker_conditions.h"
 
 namespace seedframe {
@@ -22,6 +24,8 @@ struct WorkerOptions {
   std::map<std::string, std::string> environment;
   std::vector<std::string> wrapper;  ///< a program that starts it, see sandbox.h
   ResourceLimits limits;             ///< that no worker gets beyond
+  /// Processes that the kernel has killed for lack of memory since it started.
+  std::function<std::int64_t()> out_of_memory_kills = system_out_of_memory_kills;
   /// The log of each worker, which is appended to; its folder exists. CampaignFiles::worker_log
   /// fits.
   std::function<std::filesystem::path(int worker)> log_path;

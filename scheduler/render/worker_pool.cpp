@@ -1,13 +1,6 @@
 #include "render/worker_pool.h"
 
 #include <algorithm>
-#include <cerrno>
-
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <poll.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include "render/pool_loop.h"
 
@@ -22,8 +15,8 @@ bool ends_the_run(const Error& error) {
 
 }  // namespace
 
-WorkerPool::WorkerPool(PoolOptions options, RenderClient& client)
-    : loop_(std::make_unique<Loop>(std::move(options), client)) {}
+WorkerPool::WorkerPool(const PoolOptions& options, Executor& executor, RenderClient& client)
+    : loop_(std::make_unique<Loop>(options, executor, client)) {}
 WorkerPool::~WorkerPool() = default;
 
 Result<RunSummary> WorkerPool::run(const std::vector<PendingFrame>& frames) {
@@ -34,19 +27,13 @@ void WorkerPool::post_verdict(const FrameJob& job, Status verdict) {
 }
 void WorkerPool::drain() { loop_->drain(); }
 
-WorkerPool::Loop::Loop(PoolOptions options, RenderClient& client)
-    : options_(std::move(options)),
-      client_(client),
-      timeout_(options_.frame_timeout),
-      wake_fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  workers_.resize(static_cast<std::size_t>(std::max(1, options_.workers)));
-  for (std::size_t i = 0; i < workers_.size(); ++i) workers_[i].number = static_cast<int>(i);
+WorkerPool::Loop::Loop(const PoolOptions& options, Executor& executor, RenderClient& client)
+    : options_(options), executor_(executor), client_(client), timeout_(options_.frame_timeout) {
+  slots_.resize(static_cast<std::size_t>(std::max(1, options_.workers)));
+  for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i].number = static_cast<int>(i);
 }
 
-WorkerPool::Loop::~Loop() { close(wake_fd_); }
-
 Result<RunSummary> WorkerPool::Loop::run(const std::vector<PendingFrame>& frames) {
-  if (wake_fd_ < 0) return fail(ErrorKind::kExhausted, "cannot make an eventfd");
   Schedule schedule(frames, options_.attempts);
   while (!stopped_by_) {
     take_verdicts(schedule);
@@ -57,10 +44,10 @@ Result<RunSummary> WorkerPool::Loop::run(const std::vector<PendingFrame>& frames
     hand_out(schedule);
     if (stopped_by_ || schedule.finished()) continue;
     wait_for_events();
-    for (Worker& worker : workers_) {
-      receive_from(worker, schedule);
-      check_deadline(worker);
-      take_end(worker, schedule);
+    for (Slot& slot : slots_) {
+      receive_from(slot, schedule);
+      check_deadline(slot);
+      take_end(slot, schedule);
     }
   }
   stop_all(schedule);
@@ -77,45 +64,44 @@ void WorkerPool::Loop::stop_run(Error error) {
 
 void WorkerPool::Loop::start_workers(Schedule& schedule) {
   std::int64_t wanted = schedule.workers_wanted() + (prepared_ ? 1 : 0);
-  for (const Worker& worker : workers_) {
-    if (worker.state == Worker::State::kStarting || worker.state == Worker::State::kIdle) --wanted;
+  for (const Slot& slot : slots_) {
+    if (slot.state == Slot::State::kStarting || slot.state == Slot::State::kIdle) --wanted;
   }
-  for (Worker& worker : workers_) {
+  for (Slot& slot : slots_) {
     if (wanted <= 0 || stopped_by_) return;
-    if (worker.state != Worker::State::kStopped) continue;
-    start(worker);
+    if (slot.state != Slot::State::kStopped) continue;
+    start(slot);
     --wanted;
   }
 }
 
-void WorkerPool::Loop::start(Worker& worker) {
-  auto process = WorkerProcess::start(options_.worker, worker.number);
-  if (!process) return stop_run(process.error());
-  const int number = worker.number;
-  worker = Worker{};
-  worker.number = number;
-  worker.state = Worker::State::kStarting;
-  worker.process = std::move(*process);
-  worker.start = ++starts_;
-  worker.memory_kills = options_.out_of_memory_kills();
-  worker.since = Clock::now();
-  worker.deadline = worker.since + options_.start_timeout;
+void WorkerPool::Loop::start(Slot& slot) {
+  Result<std::shared_ptr<Worker>> worker = executor_.start(slot.number);
+  if (!worker) return stop_run(worker.error());
+  const int number = slot.number;
+  slot = Slot{};
+  slot.number = number;
+  slot.state = Slot::State::kStarting;
+  slot.worker = std::move(*worker);
+  slot.start = ++starts_;
+  slot.since = executor_.now();
+  slot.deadline = slot.since + options_.start_timeout;
 }
 
 void WorkerPool::Loop::hand_out(Schedule& schedule) {
   bool somebody_busy = false;
-  for (Worker& worker : workers_) {
-    if (worker.state == Worker::State::kIdle && !worker.suspect && !stopped_by_) {
-      const bool fresh = worker.frames == 0;
+  for (Slot& slot : slots_) {
+    if (slot.state == Slot::State::kIdle && !slot.suspect && !stopped_by_) {
+      const bool fresh = slot.frames == 0;
       std::optional<PreparedJob> next;
       if (prepared_ && !(fresh && schedule.has_retry_for_fresh_worker())) {
         next = std::exchange(prepared_, std::nullopt);
       } else {
         next = prepare(schedule, fresh);
       }
-      if (next) give(worker, *next, schedule);
+      if (next) give(slot, *next, schedule);
     }
-    somebody_busy = somebody_busy || worker.state == Worker::State::kBusy;
+    somebody_busy = somebody_busy || slot.state == Slot::State::kBusy;
   }
   if (somebody_busy && !prepared_ && !stopped_by_) prepared_ = prepare(schedule, false);
 }
@@ -142,25 +128,25 @@ std::optional<WorkerPool::Loop::PreparedJob> WorkerPool::Loop::prepare(Schedule&
   return std::nullopt;
 }
 
-void WorkerPool::Loop::give(Worker& worker, const PreparedJob& prepared, const Schedule& schedule) {
-  worker.state = Worker::State::kBusy;
-  worker.job = prepared.job;
-  worker.since = Clock::now();
-  worker.deadline = worker.since + timeout_.limit(schedule.crashes(worker.job.frame));
-  worker.heartbeat = worker.since + options_.heartbeat_timeout;
-  ++worker.frames;
-  worker.process->send(prepared.message);
-  client_.started(worker.job, worker.number);
+void WorkerPool::Loop::give(Slot& slot, const PreparedJob& prepared, const Schedule& schedule) {
+  slot.state = Slot::State::kBusy;
+  slot.job = prepared.job;
+  slot.since = executor_.now();
+  slot.deadline = slot.since + timeout_.limit(schedule.crashes(slot.job.frame));
+  slot.heartbeat = slot.since + options_.heartbeat_timeout;
+  ++slot.frames;
+  slot.worker->send(prepared.message);
+  client_.started(slot.job, slot.number);
 }
 
 void WorkerPool::Loop::retire_workers(Schedule& schedule) {
-  for (Worker& worker : workers_) {
-    if (worker.state != Worker::State::kIdle) continue;
-    const bool worn = options_.frames_per_worker > 0 && worker.frames >= options_.frames_per_worker;
-    const bool grown = options_.worker_memory_bytes > 0 && worker.frames > 0 &&
-                       worker.memory_bytes > options_.worker_memory_bytes;
-    const bool in_the_way = !prepared_ && schedule.wants_fresh_worker() && worker.frames > 0;
-    if (worker.suspect || worn || grown || in_the_way) begin_end(worker, kPatience);
+  for (Slot& slot : slots_) {
+    if (slot.state != Slot::State::kIdle) continue;
+    const bool worn = options_.frames_per_worker > 0 && slot.frames >= options_.frames_per_worker;
+    const bool grown = options_.worker_memory_bytes > 0 && slot.frames > 0 &&
+                       slot.memory_bytes > options_.worker_memory_bytes;
+    const bool in_the_way = !prepared_ && schedule.wants_fresh_worker() && slot.frames > 0;
+    if (slot.suspect || worn || grown || in_the_way) stop(slot, kPatience);
   }
 }
 
@@ -171,29 +157,15 @@ void WorkerPool::Loop::post_verdict(const FrameJob& job, Status verdict) {
     const std::lock_guard lock(verdicts_mutex_);
     verdicts_.emplace_back(job, std::move(verdict));
   }
-  wake();
+  executor_.wake();
 }
 
 void WorkerPool::Loop::drain() {
   drains_asked_.fetch_add(1);
-  wake();
-}
-
-void WorkerPool::Loop::wake() {
-  const int saved_errno = errno;
-  const std::uint64_t one = 1;
-  // It fails only when the counter is full, and then the loop is awake anyway.
-  [[maybe_unused]] const ssize_t written = write(wake_fd_, &one, sizeof one);
-  errno = saved_errno;
-}
-
-void WorkerPool::Loop::take_wake() {
-  std::uint64_t count = 0;
-  [[maybe_unused]] const ssize_t bytes = read(wake_fd_, &count, sizeof count);
+  executor_.wake();
 }
 
 void WorkerPool::Loop::take_verdicts(Schedule& schedule) {
-  take_wake();
   std::vector<std::pair<FrameJob, Status>> verdicts;
   {
     const std::lock_guard lock(verdicts_mutex_);
@@ -213,8 +185,8 @@ void WorkerPool::Loop::take_verdict(Schedule& schedule, const FrameJob& job,
     return;
   }
   if (ends_the_run(verdict.error())) return stop_run(verdict.error());
-  for (Worker& worker : workers_) {
-    if (worker.state != Worker::State::kStopped && worker.start == start) worker.suspect = true;
+  for (Slot& slot : slots_) {
+    if (slot.state != Slot::State::kStopped && slot.start == start) slot.suspect = true;
   }
   fail_attempt(schedule, job, Failure::kBadFile, verdict.error().message, {});
 }
@@ -225,15 +197,15 @@ void WorkerPool::Loop::take_drain(Schedule& schedule) {
   schedule.drain();
   if (prepared_) schedule.withdraw(prepared_->job);
   prepared_.reset();
-  for (Worker& worker : workers_) {
-    if (worker.state == Worker::State::kStarting) begin_end(worker, 0ms);
-    if (asked < 2 || worker.process == nullptr) continue;
-    const bool busy = worker.state == Worker::State::kBusy;
-    if (busy || worker.charged) schedule.withdraw(busy ? worker.job : *worker.charged);
-    worker.wrong.reset();
-    worker.charged.reset();
-    begin_end(worker, 0ms);
-    worker.process->kill();
+  for (Slot& slot : slots_) {
+    if (slot.state == Slot::State::kStarting) stop(slot, 0ms);
+    if (asked < 2 || slot.worker == nullptr) continue;
+    const bool busy = slot.state == Slot::State::kBusy;
+    if (busy || slot.charged) schedule.withdraw(busy ? slot.job : *slot.charged);
+    slot.wrong.reset();
+    slot.charged.reset();
+    stop(slot, 0ms);
+    slot.worker->kill();
   }
 }
 

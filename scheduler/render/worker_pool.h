@@ -1,26 +1,24 @@
-// Keeps Blender workers busy with frames, and survives whatever they do.
+// Keeps workers busy with frames, and survives whatever they do.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/error.h"
 #include "render/frame_job.h"
-#include "render/memory.h"
 #include "render/message.h"
 #include "render/schedule.h"
+#include "render/worker.h"
 #include "render/worker_options.h"
 
 namespace seedframe {
 
 struct PoolOptions {
   int workers = 1;
-  /// A worker that cannot keep its conditions ends the run.
-  WorkerOptions worker;
+  WorkerOptions worker;  ///< of a LocalExecutor
   AttemptLimits attempts;
   std::chrono::milliseconds frame_timeout = std::chrono::seconds(600);  ///< see FrameTimeout
   std::chrono::milliseconds start_timeout = std::chrono::seconds(120);
@@ -32,8 +30,6 @@ struct PoolOptions {
   std::int64_t worker_memory_bytes = 0;
   /// No new frame starts while so many wait for their verdict, which bounds the disk they take.
   int max_unjudged = 64;
-  /// Processes that the kernel has killed for lack of memory since it started.
-  std::function<std::int64_t()> out_of_memory_kills = system_out_of_memory_kills;
 };
 
 /// What the pool asks and tells. All calls come from the thread that is in WorkerPool::run and must
@@ -72,15 +68,16 @@ struct RunSummary {
 /// file is ended and replaced, and its frame is tried again in a fresh one (schedule.h).
 class WorkerPool {
  public:
-  WorkerPool(PoolOptions options, RenderClient& client);
+  /// Both must outlive it.
+  WorkerPool(const PoolOptions& options, Executor& executor, RenderClient& client);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   /// Returns when every frame is committed or failed for good, or the run is drained; no worker is
   /// left then. Failed frames are no error of the run. kEnvironment errors: workers that never get
-  /// ready (with the end of their log), and those of the client; kExhausted: the kernel killed a
-  /// worker for lack of memory, and those of the client. To be called once. It ignores
+  /// ready (with the end of their log), and those of the executor and the client; kExhausted: a
+  /// worker was killed for lack of memory, and those of the client. To be called once. It ignores
   /// nothing and installs no signal handlers.
   Result<RunSummary> run(const std::vector<PendingFrame>& frames);
 

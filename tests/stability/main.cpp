@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "image/pass_reader.h"
 #include "render/blender_info.h"
+#include "render/local_executor.h"
 #include "render/worker_pool.h"
 #include "tests/stability/cases.h"
 #include "tests/stability/exact_hits.h"
@@ -44,7 +45,8 @@ class Renderer : public RenderClient {
     const auto& origin = scenes.blender_origin_m;
     options.worker.environment["SEEDFRAME_STABILITY_ORIGIN"] =
         fmt::format("{},{},{}", origin[0], origin[1], origin[2]);
-    pool_ = std::make_unique<WorkerPool>(options, *this);
+    executor_ = std::make_unique<LocalExecutor>(options.worker);
+    pool_ = std::make_unique<WorkerPool>(options, *executor_, *this);
   }
 
   std::vector<Ids> render() {
@@ -87,6 +89,7 @@ class Renderer : public RenderClient {
   std::map<std::string, fs::path> meshes_;
   std::vector<Ids> ids_;
   std::string failure_;
+  std::unique_ptr<LocalExecutor> executor_;
   std::unique_ptr<WorkerPool> pool_;
 };
 

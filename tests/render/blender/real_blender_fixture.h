@@ -20,6 +20,7 @@
 #include "base/sha256.h"
 #include "image/pass_reader.h"
 #include "render/blender_info.h"
+#include "render/local_executor.h"
 #include "render/worker_pool.h"
 #include "spec/frame_spec.h"
 #include "tests/fixtures/scratch_folder.h"
@@ -160,7 +161,8 @@ class RealBlender : public testing::Test, public RenderClient {
     options.worker.preload =
         std::filesystem::path(SEEDFRAME_PROGRAM).parent_path() / "seedframe_worker_cpu.so";
     options.attempts = {1, 1};
-    pool = std::make_unique<WorkerPool>(options, *this);
+    executor = std::make_unique<LocalExecutor>(options.worker);
+    pool = std::make_unique<WorkerPool>(options, *executor, *this);
     std::vector<PendingFrame> pending;
     for (const std::int64_t frame : frames) pending.push_back({frame, 0});
     passes.clear();
@@ -225,6 +227,7 @@ class RealBlender : public testing::Test, public RenderClient {
   int frames_per_worker = 0;
   WorkerConditions conditions;
   ReadyMessage ready;
+  std::unique_ptr<LocalExecutor> executor;
   std::unique_ptr<WorkerPool> pool;
 };
 

@@ -1,4 +1,4 @@
-#include "render/worker_process.h"
+#include "render/local_worker.h"
 
 #include <algorithm>
 #include <array>
@@ -96,8 +96,7 @@ std::vector<std::string> whole_environment(const WorkerOptions& options) {
 
 }  // namespace
 
-Result<std::unique_ptr<WorkerProcess>> WorkerProcess::start(const WorkerOptions& options,
-                                                            int number) {
+Result<std::shared_ptr<LocalWorker>> LocalWorker::start(const WorkerOptions& options, int number) {
   Result<WorkerLog> log = WorkerLog::open(options.log_path(number));
   if (!log) return forward_error(log);
   Pipes pipes;
@@ -113,19 +112,21 @@ Result<std::unique_ptr<WorkerProcess>> WorkerProcess::start(const WorkerOptions&
   if (!pid) return forward_error(pid);
   const int pid_fd = static_cast<int>(syscall(SYS_pidfd_open, *pid, 0));  // close-on-exec by itself
   const int error = errno;
-  std::unique_ptr<WorkerProcess> worker(
-      new WorkerProcess(*pid, pid_fd, std::exchange(pipes.channel[0], -1),
-                        std::exchange(pipes.log[0], -1), std::move(*log)));
+  std::shared_ptr<LocalWorker> worker(
+      new LocalWorker(*pid, pid_fd, std::exchange(pipes.channel[0], -1),
+                      std::exchange(pipes.log[0], -1), std::move(*log)));
+  worker->out_of_memory_kills_ = options.out_of_memory_kills;
+  worker->kills_before_ = options.out_of_memory_kills();
   if (pid_fd < 0) {
     return fail(kind_of_errno(error), "cannot watch a worker: {}", std::strerror(error));
   }
   return worker;
 }
 
-WorkerProcess::WorkerProcess(pid_t pid, int pid_fd, int channel, int log_pipe, WorkerLog log)
+LocalWorker::LocalWorker(pid_t pid, int pid_fd, int channel, int log_pipe, WorkerLog log)
     : pid_(pid), pid_fd_(pid_fd), channel_(channel), log_pipe_(log_pipe), log_(std::move(log)) {}
 
-WorkerProcess::~WorkerProcess() {
+LocalWorker::~LocalWorker() {
   close_channel();
   if (!end_) kill_child(pid_);
   read_log();
@@ -133,12 +134,12 @@ WorkerProcess::~WorkerProcess() {
   if (pid_fd_ >= 0) close(pid_fd_);
 }
 
-void WorkerProcess::send(std::string_view line) {
-  unsent_ += line;
+void LocalWorker::send(std::string_view lines) {
+  unsent_ += lines;
   send_more();
 }
 
-void WorkerProcess::send_more() {
+void LocalWorker::send_more() {
   while (!unsent_.empty()) {
     // A dead worker must not raise SIGPIPE here; that it is dead shows when receiving.
     const ssize_t bytes = ::send(channel_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
@@ -151,7 +152,7 @@ void WorkerProcess::send_more() {
   }
 }
 
-bool WorkerProcess::receive(std::vector<std::string>& lines) {
+bool LocalWorker::receive(std::vector<std::string>& lines) {
   std::array<char, 1 << 16> buffer;
   bool open = true;
   while (open) {
@@ -174,12 +175,24 @@ bool WorkerProcess::receive(std::vector<std::string>& lines) {
   return open;
 }
 
-void WorkerProcess::close_channel() {
+void LocalWorker::close_channel() {
   if (channel_ >= 0) close(channel_);
   channel_ = -1;
 }
 
-void WorkerProcess::read_log() {
+void LocalWorker::add_events(std::vector<pollfd>& events) const {
+  // poll(2) passes over descriptors that are closed.
+  events.push_back({channel_, static_cast<short>(unsent_.empty() ? POLLIN : POLLIN | POLLOUT), 0});
+  events.push_back({log_pipe_, POLLIN, 0});
+  if (channel_ < 0) events.push_back({pid_fd_, POLLIN, 0});
+}
+
+void LocalWorker::move_bytes() {
+  send_more();
+  read_log();
+}
+
+void LocalWorker::read_log() {
   constexpr int kReads = 16;  // a megabyte
   std::array<char, 1 << 16> buffer;
   for (int i = 0; i < kReads && log_pipe_ >= 0; ++i) {
@@ -195,29 +208,31 @@ void WorkerProcess::read_log() {
   }
 }
 
-void WorkerProcess::begin_end(std::chrono::milliseconds patience) {
+void LocalWorker::stop(std::chrono::milliseconds patience) {
   close_channel();
   if (sent_ == Signal::kNone) next_step_ = std::min(next_step_, Clock::now() + patience);
 }
 
-void WorkerProcess::kill() {
+void LocalWorker::kill() {
   close_channel();
   if (sent_ != Signal::kKill) send_signal(Signal::kKill, kTimeForKill);
 }
 
-void WorkerProcess::send_signal(Signal signal, std::chrono::milliseconds time_for_it) {
+void LocalWorker::send_signal(Signal signal, std::chrono::milliseconds time_for_it) {
   ::kill(-pid_, signal == Signal::kKill ? SIGKILL : SIGTERM);
   sent_ = signal;
   next_step_ = Clock::now() + time_for_it;
 }
 
-std::optional<WorkerEnd> WorkerProcess::take_end_steps() {
+std::optional<WorkerEnd> LocalWorker::end() {
   if (end_) return end_;
   const std::optional<int> status = wait_for_child(pid_, std::chrono::milliseconds(0));
   const bool due = Clock::now() >= next_step_;
   if (status) {
     const bool killed = WIFSIGNALED(*status) && WTERMSIG(*status) == SIGKILL;
-    end_ = WorkerEnd{describe_wait_status(status), killed && sent_ != Signal::kKill};
+    const bool by_others = killed && sent_ != Signal::kKill;
+    end_ = WorkerEnd{describe_wait_status(status),
+                     by_others && out_of_memory_kills_() > kills_before_};
     ::kill(-pid_, SIGKILL);  // whatever it has started
     read_log();
   } else if (due && sent_ == Signal::kKill) {
