@@ -34,6 +34,19 @@ const char* reader_of(ImageKind kind) {
   return "";
 }
 
+/// Whether the chunks of a PNG, from its signature on, lead to the one that ends it.
+bool has_all_chunks(std::string_view png) {
+  std::size_t at = 8;
+  while (png.size() >= at + 12) {
+    std::size_t length = 0;
+    for (int i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(png[at + i]);
+    if (length > png.size() - at - 12) return false;
+    if (png.substr(at + 4, 4) == "IEND") return true;
+    at += length + 12;
+  }
+  return false;
+}
+
 /// What its reader would take for an image, and is none.
 Status check_front(std::string_view bytes, ImageKind kind, const std::string& what) {
   const std::string looks = what_bytes_look_like(bytes);
@@ -43,6 +56,9 @@ Status check_front(std::string_view bytes, ImageKind kind, const std::string& wh
                 looks.empty() ? "begins like none" : "is ", looks);
   }
   if (kind == ImageKind::kHdr) return check_radiance_header(bytes, what);
+  if (kind == ImageKind::kPng && !has_all_chunks(bytes)) {
+    return fail(ErrorKind::kInput, "{} is cut: a PNG ends with an end chunk", what);
+  }
   // libjpeg paints what is missing grey, and calls that a warning. After the marker there may be
   // what cameras and downloads append.
   if (kind == ImageKind::kJpeg && bytes.rfind("\xff\xd9") == std::string_view::npos) {

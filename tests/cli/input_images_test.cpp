@@ -94,7 +94,7 @@ TEST_F(InputImagesTest, AFileThatIsKnownToBeGoodIsNotDecodedAgain) {
   fs::create_directory(folder_ / "bin");
   fs::copy_file(SEEDFRAME_PROGRAM, folder_ / "bin/seedframe");
   const auto run_copy = [&](const std::vector<std::string>& environment) {
-    std::string command = "cd " + folder_.string() + " && env ";
+    std::string command = "cd " + folder_.string() + " && env SEEDFRAME_HOME=" SEEDFRAME_HOME " ";
     for (const std::string& entry : environment) command += entry + " ";
     command += "bin/seedframe check c.yaml > copy.txt 2>&1";
     return WEXITSTATUS(std::system(command.c_str()));

@@ -138,6 +138,13 @@ TEST(ImageReader, AJpegWhoseMiddleIsMissingIsRefused) {
   EXPECT_EQ(error_of(jpeg, ImageKind::kJpeg), "x is cut: a JPEG ends with an end marker");
 }
 
+TEST(ImageReader, APngWithoutItsEndIsRefused) {
+  const std::string png = encode_png(colorful_image(20, 20));
+  EXPECT_EQ(error_of(png.substr(0, png.size() - 1), ImageKind::kPng),
+            "x is cut: a PNG ends with an end chunk");
+  EXPECT_EQ(error_of(png + "appended", ImageKind::kPng), "(no error)");
+}
+
 TEST(ImageReader, WhatIsLargerThanTheLimitsIsRefusedBeforeItsPixelsAreDecoded) {
   const std::string hdr = radiance_head(70'000, 70'000);
   EXPECT_THAT(error_of(hdr, ImageKind::kHdr),

@@ -15,10 +15,11 @@ constexpr const char* kNoDate = "    :  :     :  :  ";
 
 OIIO::ImageSpec spec_of(const WriteRequest& request) {
   OIIO::ImageSpec spec(request.width, request.height, 3, OIIO::TypeUInt8);
-  // No "oiio:ColorSpace": sRGB is what is assumed anyway, and the TIFF writer makes an Exif
-  // directory of it that it does not finish in memory.
-  if (std::string_view(request.writer) == "tiff") spec.attribute("DateTime", kNoDate);
-  spec.attribute("jpeg:subsampling", "4:4:4");
+  // No more than a writer needs: what it has no place for, it writes as text, and of a colour space
+  // the TIFF writer makes an Exif directory that it does not finish in memory.
+  const std::string_view writer = request.writer;
+  if (writer == "tiff") spec.attribute("DateTime", kNoDate);
+  if (writer == "jpeg") spec.attribute("jpeg:subsampling", "4:4:4");
   if (request.compression[0] != '\0') spec.attribute("compression", request.compression);
   return spec;
 }
