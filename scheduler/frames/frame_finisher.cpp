@@ -12,6 +12,7 @@
 #include "image/pixel_hash.h"
 #include "image/png_file.h"
 #include "image_files/image_writer.h"
+#include "plan/pass_plan.h"
 #include "twin/twin_comparison.h"
 
 namespace seedframe {
@@ -21,26 +22,26 @@ namespace {
 constexpr const char* kRenderedPasses = "rendered.exr";
 constexpr const char* kSharpPasses = "rendered.exr.sharp";
 
-PassExpectation expectation(const FinishTask& task) {
+PassExpectation expectation(const FinishTask& task, const PassPlan& plan) {
   const FrameSpec& spec = task.spec;
   PassExpectation expected;
   expected.frame_id = task.frame_id;
   expected.width = spec.render.width;
   expected.height = spec.render.height;
-  expected.depth = spec.render.depth;
-  expected.normal = spec.render.normal;
+  expected.depth = plan.depth;
+  expected.normal = plan.normal;
   for (const InstanceSpec& instance : spec.instances) {
     expected.max_instance_id = std::max(expected.max_instance_id, instance.id);
   }
   return expected;
 }
 
-/// The passes of a frame. Depth of field disturbs all but the picture, so then the worker renders
-/// the rest once more without it.
+/// The passes of a frame, each from the rendering that it comes from.
 Result<FramePasses> read_frame_passes(const FinishTask& task) {
-  const PassExpectation expected = expectation(task);
+  const PassPlan plan = plan_passes(task.spec);
+  const PassExpectation expected = expectation(task, plan);
   Result<FramePasses> passes = read_passes(rendered_passes(task.attempt_folder), expected);
-  if (!passes || task.spec.camera.aperture_radius_m == 0.0) return passes;
+  if (!passes || !plan.sharp_rendering) return passes;
   Result<FramePasses> sharp = read_passes(task.attempt_folder / kSharpPasses, expected);
   if (!sharp) return sharp;
   sharp->combined = std::move(passes->combined);
