@@ -23,7 +23,7 @@ bool is_unexplained(const AuditedFrame& frame) {
 }
 
 bool is_portable(const PreparedCampaign& prepared) {
-  return prepared.config.determinism.mode == DeterminismConfig::Mode::kPortable;
+  return prepared.settings.determinism.mode == Determinism::Mode::kPortable;
 }
 
 /// Frames to render before or beside others: the first ones of the campaign.
@@ -136,7 +136,7 @@ Status Auditor::compare_inputs(AuditedFrame& frame) {
   }
   frame.grade = Grade::kNotReproducible;
   if (frame.cause.kind == Cause::Kind::kNone) {
-    frame.cause = cause_of_inputs(campaign_, prepared_, frame.inputs);
+    frame.cause = cause_of_inputs(campaign_, prepared_, expanded->used, frame.inputs);
   }
   return {};
 }

@@ -34,14 +34,6 @@ void add_changed(const Json& before, const char* table, const char* what,
   }
 }
 
-std::map<std::string, std::string> texture_hashes(const SceneExpander& expander) {
-  std::map<std::string, std::string> hashes;
-  for (const auto& [sha256, file] : expander.image_files()) {
-    hashes[texture_name(file)] = sha256;
-  }
-  return hashes;
-}
-
 Kernels kernels_in(const Json& provenance) {
   return {provenance.value("kernel", ""), provenance.value("embree", "")};
 }
@@ -64,17 +56,17 @@ const char* to_string(CauseKind kind) {
 }
 
 Cause cause_of_inputs(const Campaign& campaign, const PreparedCampaign& prepared,
-                      const std::vector<std::string>& spec) {
+                      const UsedFiles& used, const std::vector<std::string>& spec) {
   std::vector<std::string> changed;
   const Result<std::string> text = read_file(campaign.files.provenance());
   const Json before = text ? Json::parse(*text, nullptr, false) : Json();
   if (before.is_object()) {
-    const std::uint64_t seed = before.value("seed", prepared.config.seed);
-    if (seed != prepared.config.seed) {
-      changed.push_back(fmt::format("the seed is {} instead of {}", prepared.config.seed, seed));
+    const std::uint64_t seed = before.value("seed", prepared.settings.seed);
+    if (seed != prepared.settings.seed) {
+      changed.push_back(fmt::format("the seed is {} instead of {}", prepared.settings.seed, seed));
     }
-    add_changed(before, "assets", "asset", prepared.expander.asset_hashes(), changed);
-    add_changed(before, "textures", "texture", texture_hashes(prepared.expander), changed);
+    add_changed(before, "assets", "asset", asset_hashes(used), changed);
+    add_changed(before, "textures", "texture", image_hashes(used), changed);
     const std::string config = sha256_hex(prepared.source.text);
     if (changed.empty() && before.value("config_sha256", config) != config) {
       changed.emplace_back("campaign.yaml is not the config that was submitted");

@@ -36,7 +36,7 @@ const char* to_string(Cause::Kind kind);
 /// What of the inputs that provenance.json lists has changed; otherwise which files were written
 /// since the submission, or which values of the frame spec differ. `spec` are the differences.
 Cause cause_of_inputs(const Campaign& campaign, const PreparedCampaign& prepared,
-                      const std::vector<std::string>& spec);
+                      const UsedFiles& used, const std::vector<std::string>& spec);
 
 class CauseFinder {
  public:

@@ -16,14 +16,15 @@ constexpr int kMostBefore = 8;
 /// Other kernels than Cycles takes by itself on any CPU of the last decade.
 constexpr Isa kOtherIsa = Isa::kAvx;
 
-/// Rows for the store of a campaign of these frames alone.
-Status add_rows(const std::vector<std::int64_t>& frames, PreparedCampaign& prepared,
-                JobStore& store) {
+/// Rows for the store of a campaign of these frames alone. `used` takes their files.
+Status add_rows(const std::vector<std::int64_t>& frames, const PreparedCampaign& prepared,
+                JobStore& store, UsedFiles& used) {
   auto next = frames.begin();
   return store.add_frames([&]() -> Result<std::optional<FrameRow>> {
     if (next == frames.end()) return std::nullopt;
     Result<ExpandedFrame> expanded = prepared.expander.expand(*next);
     if (!expanded) return forward_error(expanded);
+    used.add(expanded->used);
     FrameRow row;
     row.frame = *next++;
     row.scene = expanded->scene;
@@ -131,10 +132,13 @@ Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions o
   const CampaignFiles files(folder);
   Result<JobStore> store = JobStore::create(files.store());
   if (!store) return forward_error(store);
-  if (Status added = add_rows(frames, prepared_, *store); !added) return forward_error(added);
+  UsedFiles used;
+  if (Status added = add_rows(frames, prepared_, *store, used); !added) {
+    return forward_error(added);
+  }
   Campaign campaign{files, std::move(*store)};
   if (Status begun = begin_run(campaign); !begun) return forward_error(begun);
-  Result<Provenance> provenance = Provenance::load(files, prepared_, setup);
+  Result<Provenance> provenance = Provenance::load(files, prepared_, used, setup);
   if (!provenance) return forward_error(provenance);
   std::vector<PendingFrame> pending;
   pending.reserve(frames.size());

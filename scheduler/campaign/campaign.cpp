@@ -41,7 +41,7 @@ Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   if (Status set = store->set_meta(kAllowedKey, canonical_json(allowed)); !set) return set;
   const std::string inputs = canonical_json(Json(input_stamps(prepared)));
   if (Status set = store->set_meta(kInputsKey, inputs); !set) return set;
-  const std::string encoding = canonical_json(to_json(prepared.config.image.encoding));
+  const std::string encoding = canonical_json(to_json(prepared.settings.image_encoding));
   if (Status set = store->set_meta(kEncodingKey, encoding); !set) return set;
   std::int64_t next = 0;
   return store->add_frames([&]() -> Result<std::optional<FrameRow>> {

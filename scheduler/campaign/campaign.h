@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 #include "campaign/campaign_lock.h"
-#include "campaign/prepared_campaign.h"
 #include "frames/campaign_files.h"
 #include "frames/manifest.h"
 #include "render/frame_job.h"
+#include "scene/prepared_campaign.h"
 #include "store/job_store.h"
 
 namespace seedframe {

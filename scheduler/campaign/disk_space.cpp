@@ -31,23 +31,24 @@ double bytes_per_pixel(const ImageEncoding& picture) {
 
 }  // namespace
 
-std::uint64_t typical_frame_bytes(const CampaignConfig& config) {
-  const RenderConfig& render = config.render;
-  const bool rendered = config.labels.source == LabelSource::kIndexPass;
+std::uint64_t typical_frame_bytes(const CampaignSettings& settings) {
+  const RenderSettings& render = settings.render;
+  const bool rendered = settings.labels == LabelSource::kIndexPass;
   const double depth = render.depth ? 1.0 : 0.0;
   const double normal = render.normal ? 1.0 : 0.0;
   double pixel_bytes = 3.0 * depth + (rendered ? 12.0 : 2.0) * normal;
   // The picture, and passes.exr: half RGBA, float index, depth and normal, deflated to two thirds.
   if (rendered) {
     pixel_bytes +=
-        bytes_per_pixel(config.image.encoding) + 0.67 * (12.0 + 4.0 * depth + 12.0 * normal);
+        bytes_per_pixel(settings.image_encoding) + 0.67 * (12.0 + 4.0 * depth + 12.0 * normal);
   }
   constexpr double kOtherFiles = 64e3;
   return static_cast<std::uint64_t>(
       std::ceil(pixel_bytes * render.width * render.height + kOtherFiles));
 }
 
-Result<std::uint64_t> expected_frame_bytes(const Campaign& campaign, const CampaignConfig& config) {
+Result<std::uint64_t> expected_frame_bytes(const Campaign& campaign,
+                                           const CampaignSettings& settings) {
   constexpr int kSample = 16;
   const auto rows = campaign.store.frames_in(FrameState::kDone, kSample);
   if (!rows) return forward_error(rows);
@@ -59,7 +60,7 @@ Result<std::uint64_t> expected_frame_bytes(const Campaign& campaign, const Campa
     for (const auto& [name, file] : manifest->files) sum += file.bytes;
     ++frames;
   }
-  return frames == 0 ? typical_frame_bytes(config) : sum / frames;
+  return frames == 0 ? typical_frame_bytes(settings) : sum / frames;
 }
 
 std::uint64_t room_for_attempts(const RunSetup& setup) {

@@ -21,15 +21,15 @@ CREATE TABLE IF NOT EXISTS frames_1 (
 
 }  // namespace
 
-std::string cache_key(const Json& provenance, const CampaignConfig& config) {
+std::string cache_key(const Json& provenance, const CampaignSettings& settings) {
   Json made_with = provenance;
   made_with.erase("threads");
-  const TwinCheck& check = config.labels.check;
+  const TwinCheck& check = settings.twin_check;
   Json key = {
       {"made_with", made_with},
-      {"categories", config.categories},
+      {"categories", settings.categories},
       {"check", {check.wanted, check.tolerance.inside_share, check.tolerance.outline_share}}};
-  if (config.image.encoding != ImageEncoding{}) key["image"] = to_json(config.image.encoding);
+  if (settings.image_encoding != ImageEncoding{}) key["image"] = to_json(settings.image_encoding);
   return sha256_hex(canonical_json(key));
 }
 

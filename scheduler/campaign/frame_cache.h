@@ -10,7 +10,7 @@
 
 #include "base/canonical_json.h"
 #include "base/error.h"
-#include "config/campaign_config.h"
+#include "spec/campaign_settings.h"
 #include "store/sqlite.h"
 
 namespace seedframe {
@@ -18,7 +18,7 @@ namespace seedframe {
 /// What must be the same for a frame of the same id to have the same files: the provenance of its
 /// attempt but for threads, which change no pixel, and what of the config decides over labels, over
 /// the picture's file, and over whether a frame is accepted. 64 hex digits.
-std::string cache_key(const Json& provenance, const CampaignConfig& config);
+std::string cache_key(const Json& provenance, const CampaignSettings& settings);
 
 /// One SQLite file, for all processes of the user. Nothing here is an error: a cache that cannot be
 /// used is empty. From any thread.

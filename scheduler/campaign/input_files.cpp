@@ -56,9 +56,10 @@ Result<InputStamps> stamps_of_submission(const Campaign& campaign) {
   return stamps;
 }
 
-/// New frame ids by frame, of those that are not what was submitted.
+/// New frame ids by frame, of those that are not what was submitted. `used` takes the files of all.
 Result<std::map<std::int64_t, std::string>> changed_frames(const Campaign& campaign,
-                                                           PreparedCampaign& prepared) {
+                                                           const PreparedCampaign& prepared,
+                                                           UsedFiles& used) {
   const Result<FrameCounts> counts = campaign.store.counts();
   if (!counts) return forward_error(counts);
   if (counts->total() != prepared.expander.frame_count()) {
@@ -71,6 +72,7 @@ Result<std::map<std::int64_t, std::string>> changed_frames(const Campaign& campa
   const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
     Result<ExpandedFrame> expanded = prepared.expander.expand(row.frame);
     if (!expanded) return forward_error(expanded);
+    used.add(expanded->used);
     if (expanded->id != row.frame_id) changed[row.frame] = std::move(expanded->id);
     return {};
   });
@@ -80,12 +82,12 @@ Result<std::map<std::int64_t, std::string>> changed_frames(const Campaign& campa
 
 /// Frames that are done, and whose picture is to be another file now.
 Result<std::vector<std::int64_t>> frames_to_encode_anew(const Campaign& campaign,
-                                                        const CampaignConfig& config) {
+                                                        const CampaignSettings& settings) {
   std::vector<std::int64_t> frames;
   const Result<ImageEncoding> before = wanted_encoding(campaign);
   if (!before) return forward_error(before);
-  const bool have_pictures = config.labels.source == LabelSource::kIndexPass;
-  if (*before == config.image.encoding || !have_pictures) return frames;
+  const bool have_pictures = settings.labels == LabelSource::kIndexPass;
+  if (*before == settings.image_encoding || !have_pictures) return frames;
   const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
     if (row.state == FrameState::kDone) frames.push_back(row.frame);
     return {};
@@ -105,16 +107,8 @@ InputStamps input_stamps(const PreparedCampaign& prepared) {
   }
   stamps["campaign.yaml"] = sha256_hex(canonical_json(config));
   add_file(our_program(), stamps);
-  for (const fs::path& file : prepared.config.files) add_file(fs::absolute(file, error), stamps);
-  for (const auto& [sha256, file] : prepared.expander.image_files()) {
-    add_file(fs::absolute(file, error), stamps);
-  }
-  std::vector<fs::path> folders = {prepared.source.home / "assets",
-                                   prepared.source.home / "materials"};
-  for (const auto* more : {&prepared.config.asset_folders, &prepared.config.material_folders}) {
-    folders.insert(folders.end(), more->begin(), more->end());
-  }
-  for (const fs::path& folder : folders) {
+  for (const fs::path& file : prepared.inputs.files) add_file(fs::absolute(file, error), stamps);
+  for (const fs::path& folder : prepared.inputs.folders) {
     if (!add_folder(fs::absolute(folder, error), stamps)) return {};
   }
   return stamps;
@@ -145,9 +139,9 @@ Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign&
   const InputStamps now = input_stamps(prepared);
   RenewedFrames renewed;
   if (!now.empty() && now == *before) return renewed;
-  const auto changed = changed_frames(campaign, prepared);
+  const auto changed = changed_frames(campaign, prepared, renewed.used);
   if (!changed) return forward_error(changed);
-  const auto encoded = frames_to_encode_anew(campaign, prepared.config);
+  const auto encoded = frames_to_encode_anew(campaign, prepared.settings);
   if (!encoded) return forward_error(encoded);
   renewed.frames = static_cast<std::int64_t>(changed->size());
   for (const std::int64_t frame : *encoded) renewed.frames += changed->contains(frame) ? 0 : 1;
@@ -167,7 +161,7 @@ Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign&
     for (const std::int64_t frame : *encoded) {
       if (Status done = campaign.store.reset(frame); !done) return done;
     }
-    const std::string encoding = canonical_json(to_json(prepared.config.image.encoding));
+    const std::string encoding = canonical_json(to_json(prepared.settings.image_encoding));
     if (Status done = campaign.store.set_meta(kEncodingKey, encoding); !done) return done;
     return campaign.store.set_meta(kInputsKey, canonical_json(Json(now)));
   });

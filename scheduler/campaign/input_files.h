@@ -26,6 +26,7 @@ Result<std::vector<std::string>> inputs_changed_since(const Campaign& campaign,
 struct RenewedFrames {
   std::int64_t frames = 0;
   std::vector<std::string> inputs;  ///< that have changed
+  UsedFiles used;                   ///< by every frame, if they were expanded
 };
 
 /// Gives frames that would come out as other ones, since an input has changed, their new identity:

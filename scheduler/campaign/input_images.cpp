@@ -1,10 +1,10 @@
 #include "campaign/input_images.h"
 
 #include "assets/image_check.h"
+#include "base/diagnostics.h"
 #include "base/files.h"
 #include "base/sha256.h"
 #include "campaign/input_files.h"
-#include "config/diagnostics.h"
 #include "image_files/image_kind.h"
 
 namespace seedframe {
@@ -32,7 +32,7 @@ Status check_file(const OfferedImage& image, const AllowedFolders& allowed,
 
 Status check_input_images(const PreparedCampaign& prepared, const std::filesystem::path& cache) {
   const CheckedImages checked(cache);
-  const AllowedFolders& allowed = prepared.expander.material_library().allowed();
+  const AllowedFolders& allowed = prepared.expander.allowed_folders();
   Diagnostics errors;
   for (const OfferedImage& image : prepared.expander.offered_images()) {
     const Status good = check_file(image, allowed, checked);

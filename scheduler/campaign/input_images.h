@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "campaign/campaign.h"
-#include "campaign/prepared_campaign.h"
+#include "scene/prepared_campaign.h"
 
 namespace seedframe {
 

@@ -13,7 +13,7 @@ LabelRun::LabelRun(Campaign& campaign, PreparedCampaign& prepared, Provenance& p
       provenance_(provenance),
       observer_(observer),
       frames_at_once_(setup.options.pool.workers),
-      finisher_(prepared.config.categories, prepared.config.labels.check,
+      finisher_(prepared.settings.categories, prepared.settings.twin_check,
                 setup.options.pool.worker.threads),
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
@@ -66,9 +66,8 @@ void LabelRun::begin(const FrameJob& job) {
     give_up(job, made.error());
     return;
   }
-  MeshBuffers meshes = prepared_.expander.mesh_buffers_of(*expanded);
-  FinishTask task{std::move(expanded->spec), std::move(expanded->id), std::move(meshes), folder,
-                  campaign_.files.rejected(job.frame)};
+  FinishTask task{std::move(expanded->spec), std::move(expanded->id), std::move(expanded->meshes),
+                  folder, campaign_.files.rejected(job.frame)};
   queue_->push([this, job, task = std::move(task)] { finish(job, task); });
 }
 

@@ -87,27 +87,31 @@ Json library_versions() {
       {"sqlite", sqlite3_libversion()}};
 }
 
-std::string texture_name(const std::filesystem::path& file) {
-  return file.parent_path().filename().string() + "/" + file.filename().string();
+std::map<std::string, std::string> asset_hashes(const UsedFiles& used) {
+  std::map<std::string, std::string> hashes;
+  for (const auto& [name, asset] : used.assets) hashes[name] = asset->mesh_sha256;
+  return hashes;
+}
+
+std::map<std::string, std::string> image_hashes(const UsedFiles& used) {
+  std::map<std::string, std::string> hashes;
+  for (const auto& [sha256, file] : used.images) {
+    const std::filesystem::path& path = file->path;
+    hashes[path.parent_path().filename().string() + "/" + path.filename().string()] = sha256;
+  }
+  return hashes;
 }
 
 Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCampaign& prepared,
-                                    const RunSetup& setup) {
+                                    const UsedFiles& used, const RunSetup& setup) {
   const std::string ocio_hash = setup.color ? setup.color->config_hash() : std::string();
   Json overrides = Json::array();
   for (const Override& change : prepared.source.overrides) {
     overrides.push_back(change.path + "=" + change.value);
   }
-  Json textures = Json::object();
-  for (const auto& [sha256, file] : prepared.expander.image_files()) {
-    textures[texture_name(file)] = sha256;
-  }
-  Json json = {{"version", kVersion},
-               {"config_sha256", sha256_hex(prepared.source.text)},
-               {"overrides", overrides},
-               {"seed", prepared.config.seed},
-               {"assets", prepared.expander.asset_hashes()},
-               {"textures", textures},
+  Json json = {{"version", kVersion},          {"config_sha256", sha256_hex(prepared.source.text)},
+               {"overrides", overrides},       {"seed", prepared.settings.seed},
+               {"assets", asset_hashes(used)}, {"textures", image_hashes(used)},
                {"attempts", Json::array()}};
   std::error_code error;
   if (std::filesystem::exists(files.provenance(), error)) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "base/error.h"
@@ -16,14 +17,16 @@ namespace seedframe {
 /// What the libraries say of themselves: name to version.
 Json library_versions();
 
-/// The name of a texture in provenance.json: that of its folder and its own.
-std::string texture_name(const std::filesystem::path& file);
+/// Name to SHA-256, as in provenance.json. That of an image is its folder's and its own.
+std::map<std::string, std::string> asset_hashes(const UsedFiles& used);
+std::map<std::string, std::string> image_hashes(const UsedFiles& used);
 
 class Provenance {
  public:
-  /// Starts from what an earlier run wrote, if there is any.
+  /// Starts from what an earlier run wrote, if there is any. `used`: by the frames that were
+  /// expanded for this run.
   static Result<Provenance> load(const CampaignFiles& files, const PreparedCampaign& prepared,
-                                 const RunSetup& setup);
+                                 const UsedFiles& used, const RunSetup& setup);
 
   /// Of attempts of this worker: canonical JSON. It goes into provenance.json if it is new.
   Result<std::string> of_worker(const ReadyMessage& ready);

@@ -45,20 +45,20 @@ WorkerOptions worker_options(const RunOptions& options, const CampaignFiles& fil
 
 }  // namespace
 
-Result<ColorManagement> load_color_management(const CampaignConfig& config,
+Result<ColorManagement> load_color_management(const CampaignSettings& settings,
                                               const BlenderInfo& blender) {
-  Result<fs::path> path = config.image.ocio_config
-                              ? Result<fs::path>(*config.image.ocio_config)
+  Result<fs::path> path = settings.ocio_config
+                              ? Result<fs::path>(*settings.ocio_config)
                               : find_ocio_config(blender.program, blender.major, blender.minor);
   if (!path) return forward_error(path);
   Result<ColorManagement> color = ColorManagement::load(*path);
   if (!color) return color;
-  if (Status known = color->check(config.image.settings); !known) {
+  if (Status known = color->check(settings.image); !known) {
     return fail(ErrorKind::kInput, "{}: {}",
-                config.image.place.file.empty() ? "image" : config.image.place.text(),
+                settings.image_place.file.empty() ? "image" : settings.image_place.text(),
                 known.error().message);
   }
-  if (Status possible = check_encoding(config.image.encoding); !possible) {
+  if (Status possible = check_encoding(settings.image_encoding); !possible) {
     return forward_error(possible);
   }
   return color;
@@ -74,9 +74,9 @@ RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, Provenance&
       room_needed_(room_for_attempts(setup)),
       cache_(FrameCache::open(setup.cache)),
       take_from_cache_(!setup.options.no_cache),
-      finisher_(prepared.config.categories, prepared.config.labels.check,
+      finisher_(prepared.settings.categories, prepared.settings.twin_check,
                 1,  // the cores are the workers'
-                prepared.config.image.encoding),
+                prepared.settings.image_encoding),
       writer_(std::make_unique<StoreWriter>(
           campaign.files, campaign.store,
           [this](const StoreEvent& event, const Status& status) { written(event, status); })),
@@ -120,19 +120,18 @@ Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
   request.frame_id = expanded->id;
   std::error_code ignored;
   request.output = fs::absolute(rendered_passes(attempt), ignored);
-  MeshBuffers buffers = prepared_.expander.mesh_buffers_of(*expanded);
-  auto meshes = write_mesh_buffers(buffers);
+  auto meshes = write_mesh_buffers(expanded->meshes);
   if (!meshes) return forward_error(meshes);
   request.meshes = std::move(*meshes);
   const auto add_image = [&](const std::string& sha256) {
-    request.textures[sha256] = fs::absolute(prepared_.expander.image_files().at(sha256), ignored);
+    request.textures[sha256] = fs::absolute(expanded->used.images.at(sha256)->path, ignored);
   };
   for (const MaterialSpec& material : expanded->spec.materials) {
     for (const auto& texture : material.textures) add_image(texture.second);
   }
   if (!expanded->spec.world.hdri.empty()) add_image(expanded->spec.world.hdri);
-  tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), std::move(buffers), attempt,
-                 campaign_.files.rejected(job.frame)};
+  tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), std::move(expanded->meshes),
+                 attempt, campaign_.files.rejected(job.frame)};
   return request;
 }
 
@@ -193,7 +192,7 @@ void RenderRun::rendered(const FrameJob& job, const RenderTimings& timings, int)
 
 void RenderRun::load_view_tables() {
   // An error comes again with the first frame.
-  (void)color_->apply(Image<float>(1, 1, 4), prepared_.config.image.settings);
+  (void)color_->apply(Image<float>(1, 1, 4), prepared_.settings.image);
 }
 
 void RenderRun::finish(const FrameJob& job, const RenderTimings& timings, const FinishTask& task) {
@@ -255,7 +254,7 @@ void RenderRun::worker_ready(int worker, const ReadyMessage& ready) {
   if (!departure.empty() && !std::exchange(departure_noted_, true)) observer_.noted(departure);
   if (cache_ && cache_key_.empty()) {
     made_with_ = *text;
-    cache_key_ = cache_key(Json::parse(*text), prepared_.config);
+    cache_key_ = cache_key(Json::parse(*text), prepared_.settings);
   }
   if (*text != made_with_) same_workers_ = false;
   provenance_of_worker_[worker] = std::move(*text);

@@ -25,7 +25,7 @@ namespace seedframe {
 
 /// The colour config of a campaign, its view checked against it, and that pictures can be written
 /// as it asks for.
-Result<ColorManagement> load_color_management(const CampaignConfig& config,
+Result<ColorManagement> load_color_management(const CampaignSettings& settings,
                                               const BlenderInfo& blender);
 
 class RenderRun : public CampaignRun, public RenderClient {

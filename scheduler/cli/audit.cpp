@@ -53,7 +53,7 @@ Result<Conditions> conditions_to_vary(const AuditArguments& arguments,
                                       const PreparedCampaign& prepared) {
   if (!arguments.vary.empty()) return parse_conditions(arguments.vary);
   Conditions conditions = usual_conditions();
-  if (prepared.config.determinism.mode == DeterminismConfig::Mode::kPortable) {
+  if (prepared.settings.determinism.mode == Determinism::Mode::kPortable) {
     conditions.insert(Condition::kIsa);
   }
   return conditions;
@@ -96,7 +96,7 @@ int audit(AuditArguments& arguments) {
       options.sample.frames > 0 || options.sample.share > 0.0 || !options.sample.only.empty();
   Result<RunSetup> setup = RunSetup{};
   if (renders) {
-    setup = set_up_run(arguments.run, prepared->config, prepared->expander.frame_count());
+    setup = set_up_run(arguments.run, prepared->settings, prepared->expander.frame_count());
     if (!setup) return report(setup.error());
   }
   if (Status taken = take_folder(options.folder); !taken) return report(taken.error());

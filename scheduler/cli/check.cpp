@@ -8,11 +8,13 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/input_images.h"
-#include "campaign/prepared_campaign.h"
+#include "campaign/provenance.h"
 #include "cli/allow_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
+#include "scene/expansion_summary.h"
+#include "scene/prepared_campaign.h"
 
 namespace seedframe {
 namespace {
@@ -26,7 +28,7 @@ struct CheckArguments {
 };
 
 /// Expands all frames; with a file to write to, their variables go there as JSON lines.
-Result<CampaignSize> check_frames(SceneExpander& expander, const std::string& graphs) {
+Result<ExpansionSummary> check_frames(const SceneExpander& expander, const std::string& graphs) {
   if (graphs.empty()) return expand_all(expander, {.id = false});
   std::ofstream out(graphs);
   const auto visit = [&](const ExpandedFrame& frame) -> Status {
@@ -34,58 +36,55 @@ Result<CampaignSize> check_frames(SceneExpander& expander, const std::string& gr
     if (out) return {};
     return fail(ErrorKind::kInput, "cannot write {}: {}", graphs, std::strerror(errno));
   };
-  Result<CampaignSize> size = expand_all(expander, {.id = false, .graph = true}, visit);
+  Result<ExpansionSummary> summary = expand_all(expander, {.id = false, .graph = true}, visit);
   out.flush();
-  if (size && !out) return fail(ErrorKind::kInput, "cannot write {}", graphs);
-  return size;
+  if (summary && !out) return fail(ErrorKind::kInput, "cannot write {}", graphs);
+  return summary;
 }
 
-Json constraints_json(const SceneExpander& expander) {
+Json constraints_json(const std::vector<std::string>& names,
+                      const std::vector<ConstraintTally>& tallies) {
   Json constraints = Json::object();
-  for (const ConstraintTally& tally : expander.constraint_tallies()) {
-    constraints[tally.name] = {{"checked", tally.checked}, {"met", tally.met}};
+  for (std::size_t i = 0; i < tallies.size(); ++i) {
+    constraints[names[i]] = {{"checked", tallies[i].checked}, {"met", tallies[i].met}};
   }
   return constraints;
 }
 
 int check(const CheckArguments& arguments) {
-  std::vector<Override> overrides;
-  for (const std::string& text : arguments.set) {
-    Result<Override> change = parse_override(text);
-    if (!change) return report(change.error());
-    overrides.push_back(std::move(*change));
-  }
   Result<CampaignSource> source =
-      read_source(arguments.config, overrides, seedframe_home(), arguments.allowed);
+      read_source(arguments.config, arguments.set, seedframe_home(), arguments.allowed);
   if (!source) return report(source.error());
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (!prepared) return report(prepared.error());
   if (Status good = check_input_images(*prepared, cache_folder()); !good) {
     return report(good.error());
   }
-  const Result<CampaignSize> size = check_frames(prepared->expander, arguments.graphs);
-  if (!size) return report(size.error());
-  const CampaignConfig& config = prepared->config;
+  const Result<ExpansionSummary> summary = check_frames(prepared->expander, arguments.graphs);
+  if (!summary) return report(summary.error());
+  const CampaignSettings& settings = prepared->settings;
   if (arguments.json) {
-    fmt::print("{}", readable_json({{"name", config.name},
-                                    {"seed", config.seed},
-                                    {"scenes", config.scenes},
-                                    {"frames", size->frames},
-                                    {"categories", config.categories},
-                                    {"least_instances", size->least_instances},
-                                    {"most_instances", size->most_instances},
-                                    {"attempts", size->attempts},
-                                    {"constraints", constraints_json(prepared->expander)},
-                                    {"assets", prepared->expander.asset_hashes()}}));
+    fmt::print(
+        "{}", readable_json({{"name", settings.name},
+                             {"seed", settings.seed},
+                             {"scenes", settings.scenes},
+                             {"frames", summary->frames},
+                             {"categories", settings.categories},
+                             {"least_instances", summary->least_instances},
+                             {"most_instances", summary->most_instances},
+                             {"attempts", summary->attempts},
+                             {"constraints", constraints_json(prepared->expander.constraint_names(),
+                                                              summary->constraints)},
+                             {"assets", asset_hashes(summary->used)}}));
     return kExitOk;
   }
   fmt::print(
       "{} is good: {} scenes × {} frames, {} to {} instances a frame, {} categories, {} assets, {} "
       "images\n'seedframe submit {}' renders it\n",
-      arguments.config, config.scenes, config.frames_per_scene, size->least_instances,
-      size->most_instances, config.categories.size(), prepared->expander.asset_hashes().size(),
-      prepared->expander.image_files().size(), arguments.config);
-  fmt::print("{}", describe_constraints(prepared->expander));
+      arguments.config, settings.scenes, settings.frames_per_scene, summary->least_instances,
+      summary->most_instances, settings.categories.size(), summary->used.assets.size(),
+      summary->used.images.size(), arguments.config);
+  fmt::print("{}", describe_constraints(prepared->expander, summary->constraints));
   return kExitOk;
 }
 

@@ -10,7 +10,6 @@
 #include "base/canonical_json.h"
 #include "base/sha256.h"
 #include "campaign/color_config.h"
-#include "campaign/prepared_campaign.h"
 #include "campaign/provenance.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
@@ -19,6 +18,7 @@
 #include "render/blender_info.h"
 #include "render/sandbox.h"
 #include "scene/material_library.h"
+#include "scene/prepared_campaign.h"
 
 namespace seedframe {
 namespace {

@@ -84,11 +84,11 @@ int resume(ResumeArguments arguments) {
   if (Status selected = select_frames(*campaign, arguments.frames, *state); !selected) {
     return report(selected.error());
   }
-  Result<RunSetup> setup = set_up_run(arguments.run, prepared->config,
+  Result<RunSetup> setup = set_up_run(arguments.run, prepared->settings,
                                       static_cast<std::int64_t>(state->to_render.size()));
   if (!setup) return report(setup.error());
   if (!arguments.frames.empty()) setup->options.no_cache = true;  // "render", it says
-  return run_campaign(*campaign, *prepared, *setup, std::move(state->to_render));
+  return run_campaign(*campaign, *prepared, renewed->used, *setup, std::move(state->to_render));
 }
 
 }  // namespace

@@ -63,9 +63,9 @@ class RunUnderWay {
 };
 
 /// "rendering 24 frames of 320 × 240 at 32 samples"
-std::string describe_work(const CampaignConfig& config, std::size_t frames) {
-  const RenderConfig& render = config.render;
-  if (config.labels.source == LabelSource::kTwin) {
+std::string describe_work(const CampaignSettings& settings, std::size_t frames) {
+  const RenderSettings& render = settings.render;
+  if (settings.labels == LabelSource::kTwin) {
     return fmt::format("tracing the labels of {} frames of {} × {}", frames, render.width,
                        render.height);
   }
@@ -88,9 +88,10 @@ Status check_room(const Campaign& campaign, const RunSetup& setup, std::size_t f
               campaign.files.root().string(), frames, bytes_text(needed), bytes_text(*free));
 }
 
-Result<RunSummary> run_once(Campaign& campaign, PreparedCampaign& prepared, const RunSetup& setup,
-                            const std::vector<PendingFrame>& frames, Progress& progress) {
-  Result<Provenance> provenance = Provenance::load(campaign.files, prepared, setup);
+Result<RunSummary> run_once(Campaign& campaign, PreparedCampaign& prepared, const UsedFiles& used,
+                            const RunSetup& setup, const std::vector<PendingFrame>& frames,
+                            Progress& progress) {
+  Result<Provenance> provenance = Provenance::load(campaign.files, prepared, used, setup);
   if (!provenance) return forward_error(provenance);
   if (Status written = provenance->write(); !written) return forward_error(written);
   const auto run = make_run(campaign, prepared, *provenance, setup, progress);
@@ -186,16 +187,17 @@ int print_outcome(Campaign& campaign, std::int64_t done_before, std::int64_t fro
 
 }  // namespace
 
-int run_campaign(Campaign& campaign, PreparedCampaign& prepared, RunSetup& setup,
-                 std::vector<PendingFrame> frames) {
+int run_campaign(Campaign& campaign, PreparedCampaign& prepared, const UsedFiles& used,
+                 RunSetup& setup, std::vector<PendingFrame> frames) {
   const RunOptions& options = setup.options;
   const Result<FrameCounts> before = campaign.store.counts();
   if (!before) return report(before.error());
-  const Result<std::uint64_t> frame_bytes = expected_frame_bytes(campaign, prepared.config);
+  const Result<std::uint64_t> frame_bytes = expected_frame_bytes(campaign, prepared.settings);
   if (!frame_bytes) return report(frame_bytes.error());
   setup.frame_bytes = *frame_bytes;
   if (!options.quiet && !frames.empty()) {
-    std::fprintf(stderr, "%s into %s: %s\n", describe_work(prepared.config, frames.size()).c_str(),
+    std::fprintf(stderr, "%s into %s: %s\n",
+                 describe_work(prepared.settings, frames.size()).c_str(),
                  campaign.files.root().c_str(), describe(setup).c_str());
   }
   if (Status room = check_room(campaign, setup, frames.size()); !room) {
@@ -205,7 +207,7 @@ int run_campaign(Campaign& campaign, PreparedCampaign& prepared, RunSetup& setup
   Progress progress(static_cast<std::int64_t>(frames.size()), before->done,
                     options.quiet || frames.empty());
   const DrainOnSignals drain;
-  Result<RunSummary> summary = run_once(campaign, prepared, setup, frames, progress);
+  Result<RunSummary> summary = run_once(campaign, prepared, used, setup, frames, progress);
   int fruitless = 0;  // pauses in a row after which nothing was done: waiting does not help
   constexpr int kMostFruitless = 3;
   while (!summary && summary.error().kind == ErrorKind::kExhausted && options.pause_limit_s > 0.0 &&
@@ -218,7 +220,7 @@ int run_campaign(Campaign& campaign, PreparedCampaign& prepared, RunSetup& setup
       break;
     }
     frames = std::move(*left);
-    summary = run_once(campaign, prepared, setup, frames, progress);
+    summary = run_once(campaign, prepared, used, setup, frames, progress);
     fruitless = progress.done() > done ? 0 : fruitless + 1;
   }
   progress.finish();

@@ -78,7 +78,7 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
 
 namespace {
 
-void make_choices(PoolOptions& pool, const RenderConfig& render, std::int64_t frames) {
+void make_choices(PoolOptions& pool, const RenderSettings& render, std::int64_t frames) {
   const WorkerPlan plan =
       choose_workers(render.width, render.height, render.samples, frames, core_count());
   if (pool.worker.threads == 0) {
@@ -93,7 +93,7 @@ void make_choices(PoolOptions& pool, const RenderConfig& render, std::int64_t fr
   }
 }
 
-Result<RunSetup> set_up_rendering(RunOptions options, const CampaignConfig& config,
+Result<RunSetup> set_up_rendering(RunOptions options, const CampaignSettings& settings,
                                   std::int64_t frames) {
   RunSetup setup;
   WorkerOptions& worker = options.pool.worker;
@@ -105,7 +105,7 @@ Result<RunSetup> set_up_rendering(RunOptions options, const CampaignConfig& conf
                  "(3.4); going on\n",
                  blender->version.c_str());
   }
-  Result<ColorManagement> color = load_color_management(config, *blender);
+  Result<ColorManagement> color = load_color_management(settings, *blender);
   if (!color) return forward_error(color);
   worker.blender = blender->program;
   worker.scripts = seedframe_home() / "blender_scripts";
@@ -115,16 +115,16 @@ Result<RunSetup> set_up_rendering(RunOptions options, const CampaignConfig& conf
                 "{} is missing: it belongs beside the program, which was built with it",
                 worker.preload.string());
   }
-  worker.conditions.persistent_data = config.render.persistent_data;
-  if (config.determinism.mode == DeterminismConfig::Mode::kPortable) {
-    worker.conditions.kernels = kernels_of(config.determinism.isa);
+  worker.conditions.persistent_data = settings.persistent_data;
+  if (settings.determinism.mode == Determinism::Mode::kPortable) {
+    worker.conditions.kernels = kernels_of(settings.determinism.isa);
   }
-  make_choices(options.pool, config.render, frames);
+  make_choices(options.pool, settings.render, frames);
   if (options.sandbox) {
     if (Status works = check_sandbox(); !works) return forward_error(works);
   }
   // Frames that promise nothing are nobody else's.
-  if (config.determinism.mode != DeterminismConfig::Mode::kNone) setup.cache = cache_folder();
+  if (settings.determinism.mode != Determinism::Mode::kNone) setup.cache = cache_folder();
   setup.options = std::move(options);
   setup.blender = std::move(*blender);
   setup.color = std::make_shared<const ColorManagement>(std::move(*color));
@@ -133,9 +133,10 @@ Result<RunSetup> set_up_rendering(RunOptions options, const CampaignConfig& conf
 
 }  // namespace
 
-Result<RunSetup> set_up_run(RunOptions options, const CampaignConfig& config, std::int64_t frames) {
-  if (config.labels.source == LabelSource::kIndexPass) {
-    return set_up_rendering(std::move(options), config, frames);
+Result<RunSetup> set_up_run(RunOptions options, const CampaignSettings& settings,
+                            std::int64_t frames) {
+  if (settings.labels == LabelSource::kIndexPass) {
+    return set_up_rendering(std::move(options), settings, frames);
   }
   PoolOptions& pool = options.pool;
   const std::int64_t frames_at_once = std::clamp<std::int64_t>(frames, 1, core_count());

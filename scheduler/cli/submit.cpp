@@ -13,6 +13,7 @@
 #include "cli/run_campaign.h"
 #include "cli/run_options.h"
 #include "cli/verb.h"
+#include "scene/expansion_summary.h"
 
 namespace seedframe {
 namespace {
@@ -28,54 +29,47 @@ struct SubmitArguments {
 };
 
 Result<PreparedCampaign> prepare_submission(const SubmitArguments& arguments) {
-  std::vector<Override> overrides;
-  for (const std::string& text : arguments.set) {
-    Result<Override> change = parse_override(text);
-    if (!change) return forward_error(change);
-    overrides.push_back(std::move(*change));
-  }
   Result<CampaignSource> source =
-      read_source(arguments.config, overrides, seedframe_home(), arguments.allowed);
+      read_source(arguments.config, arguments.set, seedframe_home(), arguments.allowed);
   if (!source) return forward_error(source);
   return prepare(std::move(*source));
 }
 
-void print_plan(const PreparedCampaign& prepared, const RunSetup& setup, std::int64_t frames,
-                const std::filesystem::path& folder) {
-  const CampaignConfig& config = prepared.config;
-  const bool rendered = config.labels.source == LabelSource::kIndexPass;
-  fmt::print("{} scenes × {} frames: {} of {} frames would be {}, {} × {}{}\n", config.scenes,
-             config.frames_per_scene, frames, config.frame_count(),
-             rendered ? "rendered" : "labelled", config.render.width, config.render.height,
-             rendered ? fmt::format(" at {} samples", config.render.samples) : std::string());
-  fmt::print("seed {}, {} categories, {} meshes, {} images\n", config.seed,
-             config.categories.size(), prepared.expander.mesh_buffers().size(),
-             prepared.expander.image_files().size());
-  fmt::print("{}", describe_constraints(prepared.expander));
+void print_plan(const PreparedCampaign& prepared, const ExpansionSummary& summary,
+                const RunSetup& setup, std::int64_t frames, const std::filesystem::path& folder) {
+  const CampaignSettings& settings = prepared.settings;
+  const bool rendered = settings.labels == LabelSource::kIndexPass;
+  fmt::print("{} scenes × {} frames: {} of {} frames would be {}, {} × {}{}\n", settings.scenes,
+             settings.frames_per_scene, frames, settings.frame_count(),
+             rendered ? "rendered" : "labelled", settings.render.width, settings.render.height,
+             rendered ? fmt::format(" at {} samples", settings.render.samples) : std::string());
+  fmt::print("seed {}, {} categories, {} meshes, {} images\n", settings.seed,
+             settings.categories.size(), summary.meshes.size(), summary.used.images.size());
+  fmt::print("{}", describe_constraints(prepared.expander, summary.constraints));
   fmt::print("by {}\n", describe(setup));
   fmt::print("into {}, about {} (nothing was written)\n", folder.string(),
-             bytes_text(typical_frame_bytes(config) * static_cast<std::uint64_t>(frames)));
+             bytes_text(typical_frame_bytes(settings) * static_cast<std::uint64_t>(frames)));
 }
 
 int submit(const SubmitArguments& arguments) {
   Result<PreparedCampaign> prepared = prepare_submission(arguments);
   if (!prepared) return report(prepared.error());
   const std::filesystem::path folder =
-      arguments.output.empty() ? std::filesystem::path("results") / prepared->config.name
+      arguments.output.empty() ? std::filesystem::path("results") / prepared->settings.name
                                : std::filesystem::path(arguments.output);
-  const std::int64_t all = prepared->config.frame_count();
+  const std::int64_t all = prepared->settings.frame_count();
   const std::int64_t wanted = arguments.frames > 0 ? std::min(arguments.frames, all) : all;
   if (Status good = check_input_images(*prepared, cache_folder()); !good) {
     return report(good.error());
   }
   // Every frame is expanded once before anything is written: a mistake in the last one leaves no
   // folder behind that somebody would have to take away again.
-  const Result<CampaignSize> size = expand_all(prepared->expander, {.id = false});
-  if (!size) return report(size.error());
-  Result<RunSetup> setup = set_up_run(arguments.run, prepared->config, wanted);
+  const Result<ExpansionSummary> summary = expand_all(prepared->expander, {.id = false});
+  if (!summary) return report(summary.error());
+  Result<RunSetup> setup = set_up_run(arguments.run, prepared->settings, wanted);
   if (!setup) return report(setup.error());
   if (arguments.dry_run) {
-    print_plan(*prepared, *setup, wanted, folder);
+    print_plan(*prepared, *summary, *setup, wanted, folder);
     return kExitOk;
   }
   Result<LockedCampaign> created = create_campaign(folder, *prepared);
@@ -84,7 +78,7 @@ int submit(const SubmitArguments& arguments) {
   if (Status begun = begin_run(campaign); !begun) return report(begun.error());
   std::vector<PendingFrame> pending;
   for (std::int64_t frame = 0; frame < wanted; ++frame) pending.push_back({frame});
-  return run_campaign(campaign, *prepared, *setup, std::move(pending));
+  return run_campaign(campaign, *prepared, summary->used, *setup, std::move(pending));
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ bool is_name_character(char c) {
 
 bool may_begin_name(char c) { return c != '.' && c != '-'; }
 
-/// That of the file, made to fit: like the config, it may come from anybody.
+/// The name of the file, made to fit the rules: like the config, it may come from anybody.
 std::string default_campaign_name(const std::filesystem::path& file) {
   std::string name = file.stem().string().substr(0, kLongestName);
   if (name.empty()) return "campaign";

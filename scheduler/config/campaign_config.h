@@ -10,12 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/isa.h"
 #include "config/values.h"
-#include "spec/frame_spec.h"
-#include "spec/image_encoding.h"
-#include "spec/image_settings.h"
-#include "spec/twin_check.h"
+#include "spec/campaign_settings.h"
 
 namespace seedframe {
 
@@ -73,17 +69,6 @@ struct RenderConfig {
   bool normal = false;
   bool persistent_data = false;  ///< Cycles keeps scenes: pixels depend on earlier frames
   Place place;
-};
-
-/// What is promised of the pixels.
-struct DeterminismConfig {
-  enum class Mode {
-    kMachine,   ///< the same on one kind of CPU
-    kPortable,  ///< the same on every CPU that has the instruction set
-    kNone,      ///< nothing
-  };
-  Mode mode = Mode::kMachine;
-  Isa isa = Isa::kAvx2;  ///< that a portable campaign is rendered with
 };
 
 struct LabelConfig {
@@ -219,7 +204,7 @@ struct CampaignConfig {
   std::vector<std::filesystem::path> asset_folders;     ///< searched before the built-in ones
   std::vector<std::filesystem::path> material_folders;  ///< searched before the built-in ones
   RenderConfig render;
-  DeterminismConfig determinism;
+  Determinism determinism;
   ImageConfig image;
   LabelConfig labels;
   std::vector<VariableConfig> campaign_variables, scene_variables, frame_variables;

@@ -11,18 +11,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include "base/allowed_folders.h"
-#include "config/diagnostics.h"
+#include "base/diagnostics.h"
+#include "spec/campaign_source.h"
 
 namespace seedframe {
-
-/// One `--set path=value`: replaces or adds the value at a path of keys, such as
-/// "variables.scene.parts" or "render.samples"; the value is YAML.
-struct Override {
-  std::string path;
-  std::string value;
-  /// Where it was written, when that was a config's `set`; empty for the command line.
-  Place origin = {};
-};
 
 /// Splits "path=value"; without '=' or with an empty path it is a kInput error.
 Result<Override> parse_override(const std::string& text);

@@ -90,7 +90,7 @@ Result<std::vector<double>> read_csv_column(const std::filesystem::path& file,
     const std::optional<double> value = parse_double(cell);
     if (!value || !std::isfinite(*value)) {
       constexpr std::size_t kMostShown = 60;
-      return fail(ErrorKind::kInput, "{}:{}: column '{}' wants a finite number, found '{}'",
+      return fail(ErrorKind::kInput, "{}:{}: column '{}' needs a finite number, found '{}'",
                   file.string(), row, column, cell.substr(0, kMostShown));
     }
     if (values.size() == kMostRows) {

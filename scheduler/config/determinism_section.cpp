@@ -7,7 +7,7 @@
 namespace seedframe {
 namespace {
 
-using Mode = DeterminismConfig::Mode;
+using Mode = Determinism::Mode;
 
 Mode read_mode(const ConfigNode& node, Diagnostics& errors) {
   const std::string text = node.is_scalar() ? node.text() : "";
@@ -32,8 +32,8 @@ Isa read_isa(const ConfigNode& node, Mode mode, Diagnostics& errors) {
 
 }  // namespace
 
-DeterminismConfig read_determinism(SectionReader& campaign, const RenderConfig& render) {
-  DeterminismConfig determinism;
+Determinism read_determinism(SectionReader& campaign, const RenderConfig& render) {
+  Determinism determinism;
   if (const auto node = campaign.find("determinism"); node && node->is_scalar()) {
     determinism.mode = read_mode(*node, campaign.errors());
   } else if (node) {

@@ -7,6 +7,6 @@
 namespace seedframe {
 
 /// Settings that would break the promise are errors: `render` must have been read.
-DeterminismConfig read_determinism(SectionReader& campaign, const RenderConfig& render);
+Determinism read_determinism(SectionReader& campaign, const RenderConfig& render);
 
 }  // namespace seedframe

@@ -59,14 +59,14 @@ std::vector<NumberSource> read_parameters(const ConfigNode& node, const Distribu
     return parameters;
   }
   if (!node.is_map()) {
-    errors.add(node.place(), fmt::format("{} wants [{}], found {}", syntax.name,
+    errors.add(node.place(), fmt::format("{} needs [{}], found {}", syntax.name,
                                          join(syntax.parameters), node.description()));
     return std::vector<NumberSource>(syntax.parameters.size());
   }
   node.refuse_unknown_keys(syntax.parameters, errors);
   for (const std::string& name : syntax.parameters) {
     const auto found = node.find(name);
-    if (!found) errors.add(node.place(), fmt::format("{} wants '{}'", syntax.name, name));
+    if (!found) errors.add(node.place(), fmt::format("{} needs '{}'", syntax.name, name));
     parameters.push_back(found ? read_number(*found, errors) : NumberSource{});
   }
   return parameters;
@@ -92,7 +92,7 @@ std::vector<ChoiceOption> read_choice_list(const ConfigNode& node, Diagnostics& 
     options.push_back({*value, weight ? read_number(*weight, errors) : number_constant(1.0)});
   }
   if (options.empty()) {
-    errors.add(node.place(), "choice wants a list of options or a mapping of option: weight");
+    errors.add(node.place(), "choice needs a list of options or a mapping of option: weight");
   }
   return options;
 }
@@ -129,7 +129,7 @@ std::optional<std::array<ConfigNode, 2>> read_pair(const ConfigNode& node, const
   const auto first = node.find(keys[0]);
   const auto second = node.find(keys[1]);
   if (first && second) return std::array<ConfigNode, 2>{*first, *second};
-  errors.add(node.place(), fmt::format("{} wants [{}, {}], found {}", what, keys[0], keys[1],
+  errors.add(node.place(), fmt::format("{} needs [{}, {}], found {}", what, keys[0], keys[1],
                                        node.description()));
   return std::nullopt;
 }
@@ -163,7 +163,7 @@ NumberSource read_sobol(const ConfigNode& node, Diagnostics& errors) {
   const NumberSource of = read_number((*parts)[1], errors);
   const auto* inner = std::get_if<std::shared_ptr<const Distribution>>(&of.value);
   if (inner == nullptr || (*inner)->sobol_dimension) {
-    errors.add((*parts)[1].place(), "sobol wants a distribution, such as {uniform: [0, 1]}");
+    errors.add((*parts)[1].place(), "sobol needs a distribution, such as {uniform: [0, 1]}");
     return {node.place(), 0.0};
   }
   auto distribution = std::make_shared<Distribution>(**inner);
@@ -174,7 +174,7 @@ NumberSource read_sobol(const ConfigNode& node, Diagnostics& errors) {
 NumberSource read_mixture(const ConfigNode& node, Diagnostics& errors) {
   if (node.is_list()) return read_number_choice(node, errors);
   errors.add(node.place(),
-             "mixture wants a list of distributions or of {value: …, weight: …}, found " +
+             "mixture needs a list of distributions or of {value: …, weight: …}, found " +
                  node.description());
   return {node.place(), 0.0};
 }

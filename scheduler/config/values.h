@@ -1,4 +1,4 @@
-// What may stand where a config wants a number, a vector, a colour or a name: a constant, a formula
+// What may stand where a config has a number, a vector, a colour or a name: a constant, a formula
 // or a distribution. Only the syntax is known here; scene/ gives it meaning.
 #pragma once
 

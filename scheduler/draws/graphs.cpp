@@ -11,10 +11,10 @@ namespace seedframe {
 namespace {
 
 /// What is wrong with one value, or empty.
-std::string take_value(const Json& value, const GraphVariable& variable) {
+std::string take_value(const Json& value, const GraphVariable& variable, GivenValues& given) {
   if (variable.type.type == ValueType::kText) {
     if (!value.is_string()) return "expected a name";
-    variable.given->names.push_back(value.get<std::string>());
+    given.names.push_back(value.get<std::string>());
     return {};
   }
   std::array<double, 3> numbers{};
@@ -31,19 +31,19 @@ std::string take_value(const Json& value, const GraphVariable& variable) {
   if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); })) {
     return "a number must be finite";
   }
-  variable.given->numbers.push_back(numbers);
+  given.numbers.push_back(numbers);
   return {};
 }
 
-std::string take_values(const Json& value, const GraphVariable& variable) {
+std::string take_values(const Json& value, const GraphVariable& variable, GivenValues& given) {
   const bool is_vector = variable.type.type == ValueType::kVector;
   const bool is_list =
       value.is_array() && (!is_vector || (!value.empty() && value.front().is_array()));
-  if (!is_list) return take_value(value, variable);
+  if (!is_list) return take_value(value, variable, given);
   if (!variable.per_copy) return "expected one value: this variable has no copies";
   if (value.empty()) return "expected a value for each copy, found none";
   for (const Json& item : value) {
-    if (std::string fault = take_value(item, variable); !fault.empty()) return fault;
+    if (std::string wrong = take_value(item, variable, given); !wrong.empty()) return wrong;
   }
   return {};
 }
@@ -75,11 +75,8 @@ Result<Graphs> Graphs::open(const std::filesystem::path& file) {
   return graphs;
 }
 
-Status Graphs::apply(std::int64_t index, const GraphVariables& variables) const {
-  for (const auto& [key, variable] : variables) {
-    variable.given->numbers.clear();
-    variable.given->names.clear();
-  }
+Result<std::vector<GivenValues>> Graphs::read(std::int64_t index,
+                                              const GraphVariables& variables) const {
   const Line& line = lines_.at(static_cast<std::size_t>(index));
   const std::string where = fmt::format("{}:{}", file_, line.number);
   const Result<Json> graph =
@@ -88,6 +85,7 @@ Status Graphs::apply(std::int64_t index, const GraphVariables& variables) const 
   if (!graph->is_object()) {
     return fail(ErrorKind::kInput, "{}: expected an object, such as {{\"yaw\": 90}}", where);
   }
+  std::vector<GivenValues> given(variables.size());
   for (const auto& [key, value] : graph->items()) {
     const auto found = variables.find(key);
     if (found == variables.end()) {
@@ -96,12 +94,14 @@ Status Graphs::apply(std::int64_t index, const GraphVariables& variables) const 
       return fail(ErrorKind::kInput, "{}: the config has no variable '{}'{}", where, key,
                   did_you_mean(key, known));
     }
-    if (const std::string fault = take_values(value, found->second); !fault.empty()) {
-      return fail(ErrorKind::kInput, "{}: {}: {}, found {}", where, key, fault,
+    const GraphVariable& variable = found->second;
+    const std::string wrong = take_values(value, variable, given[variable.index]);
+    if (!wrong.empty()) {
+      return fail(ErrorKind::kInput, "{}: {}: {}, found {}", where, key, wrong,
                   value.dump().substr(0, 60));
     }
   }
-  return {};
+  return given;
 }
 
 }  // namespace seedframe

@@ -20,9 +20,9 @@ class Graphs {
   /// Number of lines that are not empty.
   std::int64_t size() const { return static_cast<std::int64_t>(lines_.size()); }
 
-  /// Sets what line `index` gives, and clears what it does not. Errors (kInput) name the file and
-  /// the line: not a JSON object, an unknown variable (with "did you mean"), a wrong type.
-  Status apply(std::int64_t index, const GraphVariables& variables) const;
+  /// What line `index` gives, for EvaluationContext::given. Errors (kInput) name the file and the
+  /// line: not a JSON object, an unknown variable (with "did you mean"), a wrong type.
+  Result<std::vector<GivenValues>> read(std::int64_t index, const GraphVariables& variables) const;
 
  private:
   struct Line {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <boost/math/special_functions/erf.hpp>
+#include <fmt/format.h>
 
 #include "base/portable_math.h"
 
@@ -90,6 +91,15 @@ std::size_t choice(double u, std::span<const double> weights) {
     last_possible = i;
   }
   return last_possible;
+}
+
+std::string weight_error(std::span<const double> weights) {
+  double total = 0.0;
+  for (const double weight : weights) {
+    if (weight < 0.0) return fmt::format("a weight must not be negative, found {}", weight);
+    total += weight;
+  }
+  return total > 0.0 ? std::string() : "all weights are 0: nothing can be chosen";
 }
 
 }  // namespace seedframe::quantile

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace seedframe::quantile {
 
@@ -26,5 +27,7 @@ double poisson(double u, double mean);
 double empirical(double u, std::span<const double> samples);
 /// An index into weights (>= 0, with a positive sum), as likely as its weight.
 std::size_t choice(double u, std::span<const double> weights);
+/// What makes weights unfit for choice, in a sentence; empty if nothing does.
+std::string weight_error(std::span<const double> weights);
 
 }  // namespace seedframe::quantile

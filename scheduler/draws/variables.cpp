@@ -142,7 +142,6 @@ VariableBlock::Variable VariableBlock::compile_variable(const VariableConfig& co
   Variable variable;
   variable.graph_key = graph_key(prefix, config.name);
   variable.place = config.place;
-  variable.given = std::make_shared<GivenValues>();
   if (const auto* text = std::get_if<NameSource>(&config.source)) {
     variable.type.type = ValueType::kText;
     variable.source = NameDraw::compile(*text, scope, name, level, errors);
@@ -173,38 +172,36 @@ VariableBlock::Variable VariableBlock::compile_variable(const VariableConfig& co
 }
 
 VariableBlock VariableBlock::compile(const std::vector<VariableConfig>& variables,
-                                     const std::string& prefix, Level level, VariableValues& values,
+                                     const std::string& prefix, Level level, VariableTable& table,
                                      CompileScope& scope, Diagnostics& errors) {
   VariableBlock block;
   block.per_copy_ = scope.copies;
-  struct Storage {
-    double* numbers = nullptr;
-    std::string* name = nullptr;
-  };
-  std::vector<Storage> storage;
   for (const VariableConfig& variable : variables) {
     refuse_taken_name(variable.name, variable.place, scope, errors);
     const bool is_name = std::holds_alternative<NameSource>(variable.source);
-    storage.push_back(is_name ? Storage{nullptr, values.name()}
-                              : Storage{values.numbers(), nullptr});
     const FormulaType type{is_name ? ValueType::kText : ValueType::kNumber, {}};
-    scope.symbols[variable.name] = {type, storage.back().numbers, storage.back().name};
+    scope.symbols[variable.name] = {type, is_name ? table.add_text() : table.add_numbers()};
   }
   const Order order(variables, errors);
   for (const std::size_t i : order.sorted()) {
     Variable variable = compile_variable(variables[i], prefix, level, scope, errors);
     // Only now its type is known; those that refer to it come later.
-    scope.symbols[variables[i].name].type = variable.type;
-    variable.numbers = storage[i].numbers;
-    variable.name = storage[i].name;
+    Symbol& symbol = scope.symbols[variables[i].name];
+    symbol.type = variable.type;
+    variable.slot = symbol.slot;
+    GraphVariable known{variable.type, block.per_copy_, table.graph_variables.size()};
+    const auto entry = table.graph_variables.try_emplace(variable.graph_key, known).first;
+    variable.graph_index = entry->second.index;
     block.variables_.push_back(std::move(variable));
   }
   return block;
 }
 
 bool VariableBlock::take_given(const Variable& variable, EvaluationContext& context) {
-  const bool is_name = variable.name != nullptr;
-  const std::size_t count = is_name ? variable.given->names.size() : variable.given->numbers.size();
+  if (context.given == nullptr) return false;
+  const GivenValues& given = (*context.given)[variable.graph_index];
+  const bool is_name = variable.type.type == ValueType::kText;
+  const std::size_t count = is_name ? given.names.size() : given.numbers.size();
   if (count == 0) return false;
   const std::size_t index = count == 1 ? 0 : context.ordinal;
   if (index >= count) {
@@ -212,25 +209,28 @@ bool VariableBlock::take_given(const Variable& variable, EvaluationContext& cont
                                                "copies",
                                                variable.graph_key, count));
   } else if (is_name) {
-    *variable.name = variable.given->names[index];
+    context.values.texts[variable.slot] = given.names[index];
   } else {
-    std::copy_n(variable.given->numbers[index].begin(), 3, variable.numbers);
+    std::copy_n(given.numbers[index].begin(), 3, &context.values.numbers[variable.slot]);
   }
   return true;
 }
 
 void VariableBlock::evaluate(const Variable& variable, EvaluationContext& context) {
   if (take_given(variable, context)) return;
+  if (const auto* name = std::get_if<NameDraw>(&variable.source)) {
+    context.values.texts[variable.slot] = name->evaluate(context);
+    return;
+  }
+  double* const numbers = &context.values.numbers[variable.slot];
   if (const auto* number = std::get_if<NumberDraw>(&variable.source)) {
-    *variable.numbers = number->evaluate(context);
-  } else if (const auto* name = std::get_if<NameDraw>(&variable.source)) {
-    *variable.name = name->evaluate(context);
+    *numbers = number->evaluate(context);
   } else if (const auto* color = std::get_if<ColorDraw>(&variable.source)) {
     const Rgb value = color->evaluate(context);
-    std::copy(value.begin(), value.end(), variable.numbers);
+    std::copy(value.begin(), value.end(), numbers);
   } else {
     const Eigen::Vector3d value = std::get<VectorDraw>(variable.source).evaluate(context);
-    std::copy_n(value.data(), 3, variable.numbers);
+    std::copy_n(value.data(), 3, numbers);
   }
 }
 
@@ -239,12 +239,13 @@ void VariableBlock::evaluate(EvaluationContext& context) const {
     evaluate(variable, context);
     if (context.graph == nullptr) continue;
     Json value;
-    if (variable.name != nullptr) {
-      value = *variable.name;
+    if (variable.type.type == ValueType::kText) {
+      value = context.values.texts[variable.slot];
     } else if (variable.type.type == ValueType::kVector) {
-      value = {variable.numbers[0], variable.numbers[1], variable.numbers[2]};
+      const double* const numbers = &context.values.numbers[variable.slot];
+      value = {numbers[0], numbers[1], numbers[2]};
     } else {
-      value = *variable.numbers;
+      value = context.values.numbers[variable.slot];
     }
     Json& entry = (*context.graph)[variable.graph_key];
     if (per_copy_) {
@@ -252,12 +253,6 @@ void VariableBlock::evaluate(EvaluationContext& context) const {
     } else {
       entry = std::move(value);
     }
-  }
-}
-
-void VariableBlock::add_to(GraphVariables& graph_variables) const {
-  for (const Variable& variable : variables_) {
-    graph_variables[variable.graph_key] = {variable.type, per_copy_, variable.given.get()};
   }
 }
 

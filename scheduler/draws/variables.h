@@ -2,43 +2,40 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <map>
-#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "draws/draw.h"
+#include "draws/color_draw.h"
+#include "draws/name_draw.h"
 
 namespace seedframe {
-
-/// Storage of variables' values; formulas read from it, so it must outlive them and not move.
-class VariableValues {
- public:
-  /// Three numbers; a number uses the first.
-  double* numbers() { return numbers_.emplace_back().data(); }
-  std::string* name() { return &names_.emplace_back(); }
-
- private:
-  std::deque<std::array<double, 3>> numbers_;
-  std::deque<std::string> names_;
-};
-
-/// What a graph says of one variable, instead of a draw: one value, or one for each copy.
-struct GivenValues {
-  std::vector<std::array<double, 3>> numbers;
-  std::vector<std::string> names;
-};
 
 /// A variable as graphs know it.
 struct GraphVariable {
   FormulaType type;
   bool per_copy = false;  ///< may have a list with a value for each copy
-  GivenValues* given = nullptr;
+  std::size_t index = 0;  ///< in EvaluationContext::given
 };
 
 /// By the key that graphs use: "spread", "objects.bolts.spin".
 using GraphVariables = std::map<std::string, GraphVariable>;
+
+/// Where each variable of a config has its value, and what graphs call it.
+struct VariableTable {
+  std::size_t numbers = 0;  ///< size of VariableValues::numbers
+  std::size_t texts = 0;    ///< of VariableValues::texts
+  GraphVariables graph_variables;
+
+  /// A new slot, with room for a vector.
+  std::size_t add_numbers() { return std::exchange(numbers, numbers + 3); }
+  std::size_t add_text() { return texts++; }
+  /// With a place for each value.
+  VariableValues blank_values() const {
+    return {std::vector<double>(numbers), std::vector<std::string>(texts)};
+  }
+};
 
 /// Says so if a new variable cannot have this name: it is built in, or known here already.
 void refuse_taken_name(const std::string& name, const Place& place, const CompileScope& scope,
@@ -47,17 +44,15 @@ void refuse_taken_name(const std::string& name, const Place& place, const Compil
 /// The variables of one level or of one object.
 class VariableBlock {
  public:
-  /// Adds the variables to the scope. Errors: a name that is taken, an unknown name, and a cycle,
-  /// which is spelled out. `prefix` keys the draws: "variables.scene." or
+  /// Adds the variables to the table and the scope. Errors: a name that is taken, an unknown name,
+  /// and a cycle, which is spelled out. `prefix` keys the draws: "variables.scene." or
   /// "objects.bolts.variables.".
   static VariableBlock compile(const std::vector<VariableConfig>& variables,
-                               const std::string& prefix, Level level, VariableValues& values,
+                               const std::string& prefix, Level level, VariableTable& table,
                                CompileScope& scope, Diagnostics& errors);
 
-  /// Writes the value of each variable to its storage: what is given, else a draw.
+  /// Sets the value of each variable in the context: what is given, else a draw.
   void evaluate(EvaluationContext& context) const;
-
-  void add_to(GraphVariables& graph_variables) const;
 
  private:
   struct Variable {
@@ -65,9 +60,8 @@ class VariableBlock {
     Place place;
     std::variant<NumberDraw, VectorDraw, ColorDraw, NameDraw> source;
     FormulaType type;
-    double* numbers = nullptr;
-    std::string* name = nullptr;
-    std::shared_ptr<GivenValues> given;
+    std::size_t slot = 0;
+    std::size_t graph_index = 0;
   };
   static Variable compile_variable(const VariableConfig& config, const std::string& prefix,
                                    Level level, const CompileScope& scope, Diagnostics& errors);

@@ -38,19 +38,19 @@ class DoneFrames {
 
 Result<CampaignDataset> campaign_dataset(const Campaign& campaign,
                                          const PreparedCampaign& prepared) {
-  const CampaignConfig& config = prepared.config;
+  const CampaignSettings& settings = prepared.settings;
   CampaignDataset out;
   Dataset& dataset = out.dataset;
-  dataset.name = config.name;
-  dataset.seed = config.seed;
-  dataset.categories = config.categories;
+  dataset.name = settings.name;
+  dataset.seed = settings.seed;
+  dataset.categories = settings.categories;
   auto assets = prepared.expander.offered_assets();
   if (!assets) return forward_error(assets);
   dataset.assets = std::move(*assets);
   dataset.keypoints = class_keypoints(dataset.assets, dataset.categories);
-  dataset.has_images = config.labels.source == LabelSource::kIndexPass;
-  dataset.image_format = config.image.encoding.format;
-  dataset.has_depth = config.render.depth;
+  dataset.has_images = settings.labels == LabelSource::kIndexPass;
+  dataset.image_format = settings.image_encoding.format;
+  dataset.has_depth = settings.render.depth;
   dataset.frames = [&campaign] {
     return [frames = std::make_shared<DoneFrames>(campaign)] { return frames->next(); };
   };

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "assets/offered_asset.h"
 #include "base/error.h"
 #include "frames/frame_reader.h"
-#include "scene/offered_assets.h"
 
 namespace seedframe {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "assets/offered_asset.h"
 #include "base/error.h"
 #include "export/export_folder.h"
-#include "scene/offered_assets.h"
 
 namespace seedframe {
 

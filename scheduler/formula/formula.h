@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -25,16 +26,23 @@ struct FormulaType {
   bool operator==(const FormulaType&) const = default;
 };
 
-/// A variable: where its value is read when a formula is evaluated. A number is one double, a
-/// vector three.
+/// What variables are at one place of a campaign. Formulas only know where in here each one is, so
+/// that one formula can be evaluated with different values at the same time.
+struct VariableValues {
+  std::vector<double> numbers;  ///< a vector is three in a row
+  std::vector<std::string> texts;
+};
+
+/// A variable: its type, and the index of its value (a vector's first) in `numbers` or `texts`.
 struct Symbol {
   FormulaType type;
-  const double* numbers = nullptr;
-  const std::string* text = nullptr;
+  std::size_t slot = 0;
 };
 using Scope = std::map<std::string, Symbol>;
 
-Symbol number_symbol(const double* value, Dimension dimension = {});
+Symbol number_symbol(std::size_t slot, Dimension dimension = {});
+
+struct FormulaProgram;
 
 class CompiledFormula {
  public:
@@ -46,14 +54,14 @@ class CompiledFormula {
   CompiledFormula& operator=(CompiledFormula&&) noexcept;
 
   FormulaType type() const;
-  /// In base units (degrees, metres, …). May be NaN or infinite (1/0): the caller checks.
-  double number() const;
-  Eigen::Vector3d vector() const;
+  /// In base units (degrees, metres, …). May be NaN or infinite (1/0): the caller checks. `values`
+  /// has an entry for each slot of the scope.
+  double number(const VariableValues& values) const;
+  Eigen::Vector3d vector(const VariableValues& values) const;
 
  private:
-  struct Program;
-  explicit CompiledFormula(std::unique_ptr<Program> program);
-  std::unique_ptr<Program> program_;
+  explicit CompiledFormula(std::unique_ptr<FormulaProgram> program);
+  std::unique_ptr<FormulaProgram> program_;
 };
 
 /// Names of variables in a formula, whether or not they exist. Empty when it has no syntax.

@@ -21,19 +21,19 @@ bool is_number_of(const FormulaType& type, const Dimension& dimension) {
   return is_number(type) && (type.dimension.is_plain() || type.dimension == dimension);
 }
 
-Result<FormulaType> wants(const char* what) { return fail(ErrorKind::kInput, "wants {}", what); }
+Result<FormulaType> needs(const char* what) { return fail(ErrorKind::kInput, "needs {}", what); }
 
 Result<FormulaType> plain_numbers(Types types) {
   const bool fits = std::all_of(types.begin(), types.end(),
                                 [](const FormulaType& type) { return type == kPlainNumber; });
-  return fits ? Result<FormulaType>(kPlainNumber) : wants("plain numbers, without a unit");
+  return fits ? Result<FormulaType>(kPlainNumber) : needs("plain numbers, without a unit");
 }
 
 Result<FormulaType> numbers_alike(Types types) {
   const bool fits = std::all_of(types.begin(), types.end(), [&](const FormulaType& type) {
     return is_number(type) && type == types[0];
   });
-  return fits ? Result<FormulaType>(types[0]) : wants("numbers of one unit");
+  return fits ? Result<FormulaType>(types[0]) : needs("numbers of one unit");
 }
 
 Result<FormulaType> ratio_of_numbers(Types types) {
@@ -43,38 +43,38 @@ Result<FormulaType> ratio_of_numbers(Types types) {
 
 Result<FormulaType> one_angle(Types types) {
   return is_number_of(types[0], kAngle) ? Result<FormulaType>(kPlainNumber)
-                                        : wants("an angle: with a unit, or plain");
+                                        : needs("an angle: with a unit, or plain");
 }
 
 Result<FormulaType> root(Types types) {
   FormulaType result = types[0];
   for (std::int8_t& exponent : result.dimension.exponents) {
-    if (!is_number(result) || exponent % 2 != 0) return wants("a number whose unit is a square");
+    if (!is_number(result) || exponent % 2 != 0) return needs("a number whose unit is a square");
     exponent = static_cast<std::int8_t>(exponent / 2);
   }
   return result;
 }
 
 Result<FormulaType> vector_to_number(Types types) {
-  if (types[0].type != ValueType::kVector) return wants("a vector");
+  if (types[0].type != ValueType::kVector) return needs("a vector");
   return FormulaType{ValueType::kNumber, types[0].dimension};
 }
 
 Result<FormulaType> vector_to_direction(Types types) {
   return types[0].type == ValueType::kVector ? Result<FormulaType>(kPlainVector)
-                                             : wants("a vector");
+                                             : needs("a vector");
 }
 
 Result<FormulaType> product_of_vectors(Types types, ValueType result) {
   if (types[0].type != ValueType::kVector || types[1].type != ValueType::kVector) {
-    return wants("two vectors");
+    return needs("two vectors");
   }
   return FormulaType{result, types[0].dimension * types[1].dimension};
 }
 
 Result<FormulaType> turned_vector(Types types) {
   if (types[0].type != ValueType::kVector || !is_number_of(types[1], kAngle)) {
-    return wants("a vector and an angle (plain: radians)");
+    return needs("a vector and an angle (plain: radians)");
   }
   return types[0];
 }
@@ -82,12 +82,12 @@ Result<FormulaType> turned_vector(Types types) {
 Result<FormulaType> hsv_color(Types types) {
   const bool fits =
       is_number_of(types[0], kAngle) && types[1] == kPlainNumber && types[2] == kPlainNumber;
-  return fits ? Result<FormulaType>(kPlainVector) : wants("hue, saturation and value");
+  return fits ? Result<FormulaType>(kPlainVector) : needs("hue, saturation and value");
 }
 
 Result<FormulaType> temperature_color(Types types) {
   return is_number_of(types[0], kTemperature) ? Result<FormulaType>(kPlainVector)
-                                              : wants("a temperature in kelvin");
+                                              : needs("a temperature in kelvin");
 }
 
 Result<FormulaType> rgb_color(Types types) {

@@ -1,135 +1,10 @@
 #include "scene/compiled_config.h"
 
 #include "base/nearest_name.h"
+#include "scene/section_compiler.h"
 
 namespace seedframe {
 namespace {
-
-/// Compiles the values of one section, whose draws are keyed by "<section>.<key>".
-class SectionCompiler {
- public:
-  SectionCompiler(const CompileScope& scope, std::string section, Level level, Diagnostics& errors)
-      : scope_(scope), section_(std::move(section)), level_(level), errors_(errors) {}
-
-  NumberDraw number(const NumberSource& source, const char* key) const {
-    return NumberDraw::compile(source, scope_, name(key), level_, errors_);
-  }
-  VectorDraw vector(const VectorSource& source, const char* key) const {
-    return VectorDraw::compile(source, scope_, name(key), level_, errors_);
-  }
-  ColorDraw color(const ColorSource& source, const char* key) const {
-    return ColorDraw::compile(source, scope_, name(key), level_, errors_);
-  }
-  NameDraw text(const NameSource& source, const char* key) const {
-    return NameDraw::compile(source, scope_, name(key), level_, errors_);
-  }
-
-  CompiledMaterial material(const MaterialConfig& config, const MaterialLibrary& library) const {
-    const SectionCompiler inner(scope_, section_ + "." + config.name, level_, errors_);
-    CompiledMaterial material;
-    material.place = config.place;
-    material.base_color = inner.color(config.base_color, "base_color");
-    material.metallic = inner.number(config.metallic, "metallic");
-    material.roughness = inner.number(config.roughness, "roughness");
-    material.specular = inner.number(config.specular, "specular");
-    material.transmission = inner.number(config.transmission, "transmission");
-    material.ior = inner.number(config.ior, "ior");
-    material.clearcoat = inner.number(config.clearcoat, "clearcoat");
-    material.texture_repeat = inner.number(config.texture_repeat, "texture_repeat");
-    if (config.textures) {
-      material.textures = inner.text(*config.textures, "textures");
-      refuse_unknown(*material.textures, library.texture_sets(), library,
-                     &MaterialLibrary::no_texture_set);
-    }
-    return material;
-  }
-
-  /// Only the materials that the source can become, for each is compiled anew.
-  CompiledMaterials materials(const MaterialSource& source, const MaterialLibrary& library,
-                              const std::string& key) const {
-    CompiledMaterials result;
-    result.key = section_ + "." + key;
-    std::vector<std::string> wanted;
-    if (const auto* share = std::get_if<MaterialShareConfig>(&source)) {
-      result.place = share->place;
-      CompiledShare compiled = compile_share(*share, library, result.key);
-      wanted = compiled.realistic;
-      wanted.insert(wanted.end(), compiled.parametric.begin(), compiled.parametric.end());
-      result.choice = std::move(compiled);
-    } else {
-      const NameDraw draw =
-          NameDraw::compile(std::get<NameSource>(source), scope_, result.key, level_, errors_);
-      result.place = draw.place();
-      const auto possible = draw.possible_values();
-      wanted = possible.value_or(library.material_names());
-      refuse_unknown(draw, library.materials(), library, &MaterialLibrary::no_material);
-      result.choice = draw;
-    }
-    const SectionCompiler inner(scope_, result.key, level_, errors_);
-    for (const std::string& name : wanted) {
-      const auto found = library.materials().find(name);
-      if (found != library.materials().end() && !result.by_name.contains(name)) {
-        result.by_name.emplace(name, inner.material(found->second, library));
-      }
-    }
-    return result;
-  }
-
-  std::optional<CompiledGrid> grid(const std::optional<GridConfig>& config) const {
-    if (!config) return std::nullopt;
-    return CompiledGrid{
-        config->place,
-        {number(config->counts[0], "grid.counts[0]"), number(config->counts[1], "grid.counts[1]"),
-         number(config->counts[2], "grid.counts[2]")},
-        vector(config->spacing_m, "grid.spacing_m")};
-  }
-  std::optional<NumberDraw> number(const std::optional<NumberSource>& source,
-                                   const char* key) const {
-    return source ? std::optional(number(*source, key)) : std::nullopt;
-  }
-
-  /// `missing` says of a name that it is unknown.
-  template <class Known>
-  void refuse_unknown(const NameDraw& draw, const Known& known, const MaterialLibrary& library,
-                      std::string (MaterialLibrary::*missing)(const std::string&) const) const {
-    const auto possible = draw.possible_values();
-    if (!possible) return;
-    for (const std::string& value : *possible) {
-      if (!known.contains(value)) errors_.add(draw.place(), (library.*missing)(value));
-    }
-  }
-
- private:
-  std::string name(const char* key) const { return section_ + "." + key; }
-
-  CompiledShare compile_share(const MaterialShareConfig& config, const MaterialLibrary& library,
-                              const std::string& key) const {
-    CompiledShare share{NumberDraw::compile(config.realistic_share, scope_,
-                                            key + ".realistic_share", level_, errors_),
-                        PhiloxStream(scope_.seed, key),
-                        level_,
-                        {},
-                        {}};
-    for (const auto& [name, material] : library.materials()) {
-      if (name == "default") continue;
-      (material.textures ? share.realistic : share.parametric).push_back(name);
-    }
-    if (config.realistic) share.realistic = *config.realistic;
-    if (config.parametric) share.parametric = *config.parametric;
-    for (const std::vector<std::string>* names : {&share.realistic, &share.parametric}) {
-      for (const std::string& name : *names) {
-        if (library.materials().contains(name)) continue;
-        errors_.add(config.place, library.no_material(name));
-      }
-    }
-    return share;
-  }
-
-  const CompileScope& scope_;
-  std::string section_;
-  Level level_;
-  Diagnostics& errors_;
-};
 
 class Compiler {
  public:
@@ -141,12 +16,9 @@ class Compiler {
 
   void run() {
     const auto block = [&](const auto& variables, const char* prefix, Level level) {
-      VariableBlock compiled =
-          VariableBlock::compile(variables, prefix, level, compiled_.values, scope_, errors_);
-      compiled.add_to(compiled_.graph_variables);
-      return compiled;
+      return VariableBlock::compile(variables, prefix, level, compiled_.variables, scope_, errors_);
     };
-    BuiltInValues& built_in = compiled_.built_in;
+    BuiltInSlots& built_in = compiled_.built_in;
     compiled_.campaign_variables =
         block(config_.campaign_variables, "variables.campaign.", Level::kCampaign);
     built_in.scene_index = add_built_in("scene_index");
@@ -168,10 +40,10 @@ class Compiler {
   }
 
  private:
-  double* add_built_in(const char* name) {
-    double* value = compiled_.values.numbers();
-    scope_.symbols[name] = number_symbol(value);
-    return value;
+  std::size_t add_built_in(const char* name) {
+    const std::size_t slot = compiled_.variables.add_numbers();
+    scope_.symbols[name] = number_symbol(slot);
+    return slot;
   }
 
   void compile_sweep() {
@@ -183,13 +55,11 @@ class Compiler {
         variable.name = name;
         variable.axis = axis;
         refuse_taken_name(name, config.place, scope_, errors_);
-        if (std::holds_alternative<double>(value)) {
-          variable.number = compiled_.values.numbers();
-          scope_.symbols[name] = number_symbol(variable.number);
-        } else {
-          variable.text = compiled_.values.name();
-          scope_.symbols[name] = {{ValueType::kText, {}}, nullptr, variable.text};
-        }
+        variable.is_text = std::holds_alternative<std::string>(value);
+        VariableTable& table = compiled_.variables;
+        variable.slot = variable.is_text ? table.add_text() : table.add_numbers();
+        const ValueType type = variable.is_text ? ValueType::kText : ValueType::kNumber;
+        scope_.symbols[name] = {{type, {}}, variable.slot};
         compiled_.sweep.variables.push_back(variable);
       }
     }
@@ -221,8 +91,7 @@ class Compiler {
     CompileScope scope = scope_;
     camera.place = config.place;
     camera.variables = VariableBlock::compile(config.variables, "camera.variables.", config.redraw,
-                                              compiled_.values, scope, errors_);
-    camera.variables.add_to(compiled_.graph_variables);
+                                              compiled_.variables, scope, errors_);
     const SectionCompiler section(scope, "camera", config.redraw, errors_);
     const auto pair = [&](const std::array<NumberSource, 2>& sources, const std::string& key) {
       return std::array<NumberDraw, 2>{section.number(sources[0], (key + "[0]").c_str()),
@@ -273,8 +142,7 @@ class Compiler {
     object.count = count_section.number(config.count, "count");
     object.grid = count_section.grid(config.grid);
     object.variables = VariableBlock::compile(config.variables, section_name + ".variables.",
-                                              config.redraw, compiled_.values, scope, errors_);
-    object.variables.add_to(compiled_.graph_variables);
+                                              config.redraw, compiled_.variables, scope, errors_);
     const SectionCompiler section(scope, section_name, config.redraw, errors_);
     if (config.asset) object.asset = section.text(*config.asset, "asset");
     if (config.category) object.category = section.text(*config.category, "category");
@@ -323,8 +191,7 @@ class Compiler {
     light.count = count_section.number(config.count, "count");
     light.grid = count_section.grid(config.grid);
     light.variables = VariableBlock::compile(config.variables, section_name + ".variables.",
-                                             config.redraw, compiled_.values, scope, errors_);
-    light.variables.add_to(compiled_.graph_variables);
+                                             config.redraw, compiled_.variables, scope, errors_);
     const SectionCompiler section(scope, section_name, config.redraw, errors_);
     light.position = section.vector(config.position, "position");
     light.target = section.vector(config.target, "target");

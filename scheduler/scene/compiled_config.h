@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "config/campaign_config.h"
-#include "draws/draw.h"
+#include "draws/color_draw.h"
+#include "draws/name_draw.h"
 #include "draws/variables.h"
 #include "scene/material_library.h"
 
@@ -121,23 +122,23 @@ struct CompiledSweep {
   struct Variable {
     std::string name;
     std::size_t axis = 0;
-    double* number = nullptr;
-    std::string* text = nullptr;
+    bool is_text = false;
+    std::size_t slot = 0;
   };
   std::vector<Variable> variables;
 };
 
-/// Values that every formula may use.
-struct BuiltInValues {
-  double* scene_index = nullptr;  ///< from 0
-  double* frame_index = nullptr;  ///< within its scene, from 0
-  double* copy_index = nullptr;   ///< of objects and lights, from 0
-  double* copies = nullptr;       ///< their count
+/// Slots of the numbers that every formula may use.
+struct BuiltInSlots {
+  std::size_t scene_index = 0;  ///< from 0
+  std::size_t frame_index = 0;  ///< within its scene, from 0
+  std::size_t copy_index = 0;   ///< of objects and lights, from 0
+  std::size_t copies = 0;       ///< their count
 };
 
 struct CompiledConfig {
-  VariableValues values;  ///< must not move: formulas point into it
-  BuiltInValues built_in;
+  VariableTable variables;
+  BuiltInSlots built_in;
   VariableBlock campaign_variables, scene_variables, frame_variables;
   std::vector<CompiledObject> objects;
   std::vector<CompiledLight> lights;
@@ -147,7 +148,6 @@ struct CompiledConfig {
   CompiledSweep sweep;
   std::vector<CompiledConstraint> constraints;
   std::size_t sections = 0;  ///< number of objects, nested ones too
-  GraphVariables graph_variables;
 };
 
 /// Fills `compiled` in place; mistakes go to `errors`.

@@ -56,22 +56,22 @@ ConstraintChecker::ConstraintChecker(const std::vector<CompiledConstraint>& cons
                    [&](std::size_t a, std::size_t b) {
                      return price(constraints[a].kind) < price(constraints[b].kind);
                    });
-  for (const CompiledConstraint& constraint : constraints) tallies_.push_back({constraint.name});
 }
 
 const CompiledConstraint* ConstraintChecker::first_unmet(const FrameDraft& draft,
-                                                         EvaluationContext& context) {
-  rays_.reset();
+                                                         EvaluationContext& context,
+                                                         std::vector<ConstraintTally>& tallies) {
+  DraftRays rays;
   for (const std::size_t i : cheapest_first_) {
-    ++tallies_[i].checked;
-    if (!is_met(constraints_[i], draft, context)) return &constraints_[i];
-    ++tallies_[i].met;
+    ++tallies[i].checked;
+    if (!is_met(constraints_[i], draft, rays, context)) return &constraints_[i];
+    ++tallies[i].met;
   }
   return nullptr;
 }
 
 bool ConstraintChecker::is_met(const CompiledConstraint& constraint, const FrameDraft& draft,
-                               EvaluationContext& context) {
+                               DraftRays& rays, EvaluationContext& context) {
   const double least = constraint.at_least.evaluate(context);
   const std::vector<std::size_t> indices = selected(constraint, draft);
   std::vector<const PlacedInstance*> instances;
@@ -86,13 +86,13 @@ bool ConstraintChecker::is_met(const CompiledConstraint& constraint, const Frame
       const auto pixels = static_cast<std::size_t>(draft.spec.render.width) *
                           static_cast<std::size_t>(draft.spec.render.height);
       return std::all_of(indices.begin(), indices.end(), [&](std::size_t i) {
-        return rays(draft).count(i, 9 * pixels).visible >= least;
+        return rays_of(draft, rays).count(i, 9 * pixels).visible >= least;
       });
     }
     case ConstraintKind::kVisible:
     case ConstraintKind::kInView:
       return std::all_of(indices.begin(), indices.end(), [&](std::size_t i) {
-        const PixelCounts counts = rays(draft).count(i, kRaysForShares);
+        const PixelCounts counts = rays_of(draft, rays).count(i, kRaysForShares);
         const bool view = constraint.kind == ConstraintKind::kInView;
         const double part = view ? counts.in_image : counts.visible;
         const double whole = view ? counts.whole : counts.in_image;
@@ -118,41 +118,43 @@ bool ConstraintChecker::all_apart(const std::vector<const PlacedInstance*>& inst
   return true;
 }
 
-RayScene& ConstraintChecker::rays(const FrameDraft& draft) {
-  if (rays_) return *rays_;
+const RayScene& ConstraintChecker::rays_of(const FrameDraft& draft, DraftRays& rays) {
+  if (rays) return *rays;
   const CameraSpec& camera = draft.spec.camera;
   const PixelCamera pixels{draft.spec.render.width, draft.spec.render.height, camera.focal_px,
                            camera.center_px,        camera.clip_start_m,      camera.clip_end_m};
   std::vector<RayInstance> instances;
   for (const PlacedInstance& placed : draft.placed) {
     RayInstance instance;
-    instance.mesh = placed.asset ? ray_mesh(placed) : ground_mesh(draft, placed.spec.mesh);
+    instance.mesh = placed.asset ? ray_mesh(placed) : ground_mesh(placed);
     instance.camera_from_object = placed.spec.camera_from_object;
     instance.seen = !placed.spec.hidden_from.camera;
     instances.push_back(std::move(instance));
   }
-  rays_ = std::make_unique<RayScene>(pixels, std::move(instances));
-  return *rays_;
+  rays = std::make_unique<RayScene>(pixels, std::move(instances));
+  return *rays;
 }
 
 std::shared_ptr<const RayMesh> ConstraintChecker::ray_mesh(const PlacedInstance& instance) {
+  const std::lock_guard lock(mutex_);
   auto& mesh = ray_meshes_[instance.spec.mesh];
   if (!mesh) mesh = std::make_shared<const RayMesh>(instance.asset->mesh);
   return mesh;
 }
 
-std::shared_ptr<const RayMesh> ConstraintChecker::ground_mesh(const FrameDraft& draft,
-                                                              const std::string& sha256) {
-  if (ground_sha256_ == sha256) return ground_mesh_;
-  const Result<Mesh> mesh = mesh_from_buffer(*draft.ground_buffer, "ground");
-  ground_mesh_ = std::make_shared<const RayMesh>(mesh.value_or(Mesh{}));
-  ground_sha256_ = sha256;
-  return ground_mesh_;
+std::shared_ptr<const RayMesh> ConstraintChecker::ground_mesh(const PlacedInstance& ground) {
+  std::shared_ptr<const RayMesh> made = ground_mesh_.find(ground.spec.mesh);
+  if (made != nullptr) return made;
+  const Result<Mesh> mesh = mesh_from_buffer(*ground.buffer, "ground");
+  made = std::make_shared<const RayMesh>(mesh.value_or(Mesh{}));
+  ground_mesh_.keep(ground.spec.mesh, made);
+  return made;
 }
 
 const SolidMesh& ConstraintChecker::solid_mesh(const Asset& asset) {
+  const std::lock_guard lock(mutex_);
   auto& mesh = solid_meshes_[asset.buffer_sha256];
-  if (!mesh) mesh = std::make_unique<SolidMesh>(asset.mesh);
+  if (!mesh) mesh = std::make_unique<const SolidMesh>(asset.mesh);
   return *mesh;
 }
 

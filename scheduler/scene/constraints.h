@@ -1,53 +1,50 @@
-// Whether a frame is as its config wants it.
+// Whether a frame meets the constraints of its config.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "base/last_made.h"
 #include "mesh/collision.h"
 #include "rays/ray_scene.h"
 #include "scene/compiled_config.h"
+#include "scene/expanded_frame.h"
 #include "scene/frame_draft.h"
 
 namespace seedframe {
 
-/// How often a constraint was looked at, and how often it held.
-struct ConstraintTally {
-  std::string name;
-  std::int64_t checked = 0;
-  std::int64_t met = 0;
-};
-
+/// Safe to use from several threads.
 class ConstraintChecker {
  public:
   explicit ConstraintChecker(const std::vector<CompiledConstraint>& constraints);
 
   /// The first constraint that the frame does not meet, or none. The draft's spec has its camera,
-  /// and its instances are relative to it.
-  const CompiledConstraint* first_unmet(const FrameDraft& draft, EvaluationContext& context);
-
-  const std::vector<ConstraintTally>& tallies() const { return tallies_; }
+  /// and its instances are relative to it. `tallies` has an entry for each constraint.
+  const CompiledConstraint* first_unmet(const FrameDraft& draft, EvaluationContext& context,
+                                        std::vector<ConstraintTally>& tallies);
 
  private:
-  bool is_met(const CompiledConstraint& constraint, const FrameDraft& draft,
+  /// A draft's rays, made when the first constraint asks for them.
+  using DraftRays = std::unique_ptr<RayScene>;
+
+  bool is_met(const CompiledConstraint& constraint, const FrameDraft& draft, DraftRays& rays,
               EvaluationContext& context);
   bool all_apart(const std::vector<const PlacedInstance*>& instances, double gap_m);
-  RayScene& rays(const FrameDraft& draft);
+  const RayScene& rays_of(const FrameDraft& draft, DraftRays& rays);
   std::shared_ptr<const RayMesh> ray_mesh(const PlacedInstance& instance);
-  std::shared_ptr<const RayMesh> ground_mesh(const FrameDraft& draft, const std::string& sha256);
+  std::shared_ptr<const RayMesh> ground_mesh(const PlacedInstance& ground);
   const SolidMesh& solid_mesh(const Asset& asset);
 
   const std::vector<CompiledConstraint>& constraints_;
   std::vector<std::size_t> cheapest_first_;
-  std::vector<ConstraintTally> tallies_;
-  std::unique_ptr<RayScene> rays_;                                    ///< of the present frame
+  LastMade<std::string, RayMesh> ground_mesh_;  ///< by SHA-256
+  std::mutex mutex_;                            ///< guards what follows, and its making
   std::map<std::string, std::shared_ptr<const RayMesh>> ray_meshes_;  ///< by the mesh's SHA-256
-  std::map<std::string, std::unique_ptr<SolidMesh>> solid_meshes_;
-  std::string ground_sha256_;  ///< of the last frame's ground, which is often that of the next
-  std::shared_ptr<const RayMesh> ground_mesh_;
+  std::map<std::string, std::unique_ptr<const SolidMesh>> solid_meshes_;
 };
 
 }  // namespace seedframe

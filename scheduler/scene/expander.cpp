@@ -2,55 +2,68 @@
 
 #include <utility>
 
+#include "base/last_made.h"
+#include "config/campaign_config.h"
+#include "draws/graphs.h"
 #include "scene/camera_placer.h"
 #include "scene/compiled_config.h"
+#include "scene/constraints.h"
 #include "scene/ground.h"
 #include "scene/lighting.h"
 #include "scene/object_placer.h"
+#include "scene/offered_assets.h"
+#include "scene/offered_images.h"
 #include "scene/placement.h"
+#include "scene/settings.h"
 
 namespace seedframe {
 
 class SceneExpander::Program {
  public:
   Program(const CampaignConfig& config, AssetLibrary assets, MaterialLibrary materials,
-          std::optional<Graphs> graphs)
+          std::shared_ptr<const Graphs> graphs)
       : config_(config),
+        settings_(settings_of(config)),
         graphs_(std::move(graphs)),
         placer_(std::move(assets), config.categories),
         materials_(std::move(materials)),
         render_seed_(config.seed, "render.seed") {}
 
   Status compile();
-  Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes);
+  Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes) const;
 
   std::int64_t frame_count() const { return config_.frame_count(); }
-  const ObjectPlacer& placer() const { return placer_; }
-  const MaterialPicker& materials() const { return materials_; }
-  const std::vector<ConstraintTally>& tallies() const { return checker_->tallies(); }
+  const std::vector<CompiledConstraint>& constraints() const { return compiled_.constraints; }
   Result<std::vector<OfferedAsset>> offered() const {
     return seedframe::offered_assets(compiled_.objects, placer_.assets(), config_.categories);
   }
   std::vector<OfferedImage> offered_images() const {
     return seedframe::offered_images(compiled_, materials_.library());
   }
+  const AllowedFolders& allowed() const { return materials_.library().allowed(); }
 
  private:
   RenderSettings render_settings(const EvaluationContext& context) const;
-  void set_sweep(std::int64_t combination);
-  void evaluate_variables(EvaluationContext& context);
-  /// One attempt at the frame.
-  FrameDraft draft_frame(EvaluationContext& context);
+  /// Before anything is evaluated.
+  Result<EvaluationContext> context_of(std::int64_t scene, std::int64_t view) const;
+  void set_sweep(std::int64_t combination, VariableValues& values) const;
+  /// Nothing without graphs.
+  Result<std::shared_ptr<const std::vector<GivenValues>>> given_for(std::int64_t scene) const;
+  void evaluate_variables(EvaluationContext& context) const;
+  /// One attempt at the frame; `used` is what those before used.
+  FrameDraft draft_frame(UsedFiles used, EvaluationContext& context) const;
   void check_cut_outs(FrameSpec& spec, EvaluationContext& context) const;
 
   CampaignConfig config_;
-  std::optional<Graphs> graphs_;
-  std::int64_t graph_line_ = -1;  ///< the one that the variables have now
+  CampaignSettings settings_;
+  std::shared_ptr<const Graphs> graphs_;  ///< null: every variable is drawn
   ObjectPlacer placer_;
   MaterialPicker materials_;
-  GroundMaker ground_;
   PhiloxStream render_seed_;
   CompiledConfig compiled_;
+  // These keep what the next frame may want again, whichever thread expands it.
+  mutable LastMade<std::int64_t, std::vector<GivenValues>> graph_;  ///< by scene
+  mutable GroundMaker ground_;
   std::unique_ptr<ConstraintChecker> checker_;
 };
 
@@ -64,22 +77,14 @@ Status SceneExpander::Program::compile() {
 }
 
 RenderSettings SceneExpander::Program::render_settings(const EvaluationContext& context) const {
-  RenderSettings render;
-  render.width = config_.render.width;
-  render.height = config_.render.height;
-  render.samples = config_.render.samples;
-  render.max_bounces = config_.render.max_bounces;
-  render.filter_width_px = config_.render.filter_width_px;
-  render.clamp_indirect = config_.render.clamp_indirect;
-  render.depth = config_.render.depth;
-  render.normal = config_.render.normal;
+  RenderSettings render = settings_.render;
   // Cycles' seed is a signed 32-bit integer.
   render.seed =
       static_cast<std::uint32_t>(render_seed_.bits(context.position(Level::kFrame)) >> 33);
   return render;
 }
 
-void SceneExpander::Program::set_sweep(std::int64_t combination) {
+void SceneExpander::Program::set_sweep(std::int64_t combination, VariableValues& values) const {
   std::vector<std::size_t> indices(config_.sweep.axes.size());
   for (std::size_t i = indices.size(); i-- > 0;) {  // the last axis fastest
     const auto points = static_cast<std::int64_t>(config_.sweep.axes[i].points.size());
@@ -89,23 +94,52 @@ void SceneExpander::Program::set_sweep(std::int64_t combination) {
   for (const CompiledSweep::Variable& variable : compiled_.sweep.variables) {
     const auto& value =
         config_.sweep.axes[variable.axis].points[indices[variable.axis]].at(variable.name);
-    if (variable.number != nullptr) {
-      *variable.number = std::get<double>(value);
+    if (variable.is_text) {
+      values.texts[variable.slot] = std::get<std::string>(value);
     } else {
-      *variable.text = std::get<std::string>(value);
+      values.numbers[variable.slot] = std::get<double>(value);
     }
   }
 }
 
-void SceneExpander::Program::evaluate_variables(EvaluationContext& context) {
-  *compiled_.built_in.scene_index = static_cast<double>(context.scene);
-  *compiled_.built_in.frame_index = static_cast<double>(context.frame);
+Result<std::shared_ptr<const std::vector<GivenValues>>> SceneExpander::Program::given_for(
+    std::int64_t scene) const {
+  if (graphs_ == nullptr) return nullptr;
+  std::shared_ptr<const std::vector<GivenValues>> given = graph_.find(scene);
+  if (given != nullptr) return given;
+  Result<std::vector<GivenValues>> read = graphs_->read(scene, compiled_.variables.graph_variables);
+  if (!read) return forward_error(read);
+  given = std::make_shared<const std::vector<GivenValues>>(std::move(*read));
+  graph_.keep(scene, given);
+  return given;
+}
+
+Result<EvaluationContext> SceneExpander::Program::context_of(std::int64_t scene,
+                                                             std::int64_t view) const {
+  const std::int64_t combinations = config_.sweep.size();
+  EvaluationContext context;
+  context.scene = static_cast<std::uint32_t>(scene);
+  context.frame = static_cast<std::uint32_t>(view);
+  context.frames_per_scene = static_cast<std::uint32_t>(config_.frames_per_scene);
+  context.draw_scene =
+      static_cast<std::uint32_t>(config_.sweep.hold_draws ? scene / combinations : scene);
+  context.values = compiled_.variables.blank_values();
+  set_sweep(scene % combinations, context.values);
+  auto given = given_for(scene);
+  if (!given) return forward_error(given);
+  context.given = std::move(*given);
+  return context;
+}
+
+void SceneExpander::Program::evaluate_variables(EvaluationContext& context) const {
+  context.values.numbers[compiled_.built_in.scene_index] = static_cast<double>(context.scene);
+  context.values.numbers[compiled_.built_in.frame_index] = static_cast<double>(context.frame);
   compiled_.campaign_variables.evaluate(context);
   compiled_.scene_variables.evaluate(context);
   compiled_.frame_variables.evaluate(context);
 }
 
-/// A texture that cuts holes is beyond the twin, which knows triangles only.
+/// The twin sees triangles only: not the holes that a texture cuts.
 void SceneExpander::Program::check_cut_outs(FrameSpec& spec, EvaluationContext& context) const {
   const auto cut_out = std::find_if(
       spec.materials.begin(), spec.materials.end(),
@@ -119,65 +153,55 @@ void SceneExpander::Program::check_cut_outs(FrameSpec& spec, EvaluationContext& 
   }
 }
 
-FrameDraft SceneExpander::Program::draft_frame(EvaluationContext& context) {
+FrameDraft SceneExpander::Program::draft_frame(UsedFiles used, EvaluationContext& context) const {
   FrameDraft draft;
+  draft.used = std::move(used);
   FrameSpec& spec = draft.spec;
   evaluate_variables(context);
   spec.render = render_settings(context);
-  spec.image = config_.image.settings;
-  spec.labels.source = config_.labels.source;
+  spec.image = settings_.image;
+  spec.labels.source = settings_.labels;
   if (compiled_.ground) ground_.add(*compiled_.ground, materials_, draft, context);
   placer_.place_all(compiled_, materials_, draft, context);
   const Affine world_from_camera = place_camera(compiled_, draft, context);
   add_lights(compiled_, world_from_camera, draft, context);
   set_world(compiled_.world, world_from_camera, materials_, draft, context);
   check_cut_outs(spec, context);
-  std::string beyond = non_finite_part(spec);
+  std::string infinite = non_finite_part(spec);
   for (PlacedInstance& instance : draft.placed) {
     instance.spec.camera_from_object =
         relative_to_camera(world_from_camera, instance.world_from_object);
     if (!instance.spec.camera_from_object.matrix().allFinite()) {
-      beyond = "the position of '" + instance.spec.name + "'";
+      infinite = "the position of '" + instance.spec.name + "'";
     }
   }
-  if (!beyond.empty()) {
+  if (!infinite.empty()) {
     context.report(Place{config_.camera.place.file, 0, 0, ""},
-                   beyond + " has a number that is too large to compute with");
+                   infinite + " has a number that is too large to compute with");
   }
   return draft;
 }
 
 Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
-                                                     const ExpansionWishes& wishes) {
+                                                     const ExpansionWishes& wishes) const {
   ExpandedFrame result;
   result.scene = frame / config_.frames_per_scene;
   result.view = frame % config_.frames_per_scene;
-  const std::int64_t combinations = config_.sweep.size();
-  EvaluationContext context;
-  context.scene = static_cast<std::uint32_t>(result.scene);
-  context.frame = static_cast<std::uint32_t>(result.view);
-  context.frames_per_scene = static_cast<std::uint32_t>(config_.frames_per_scene);
-  context.draw_scene = static_cast<std::uint32_t>(
-      config_.sweep.hold_draws ? result.scene / combinations : result.scene);
-  set_sweep(result.scene % combinations);
-  if (graphs_ && graph_line_ != result.scene) {
-    graph_line_ = -1;  // should this line be wrong, none is in force
-    if (Status applied = graphs_->apply(result.scene, compiled_.graph_variables); !applied) {
-      return forward_error(applied);
-    }
-    graph_line_ = result.scene;
-  }
+  result.constraints.resize(compiled_.constraints.size());
+  Result<EvaluationContext> begun = context_of(result.scene, result.view);
+  if (!begun) return forward_error(begun);
+  EvaluationContext& context = *begun;
   const CompiledConstraint* unmet = nullptr;
-  std::optional<FrameDraft> draft;
+  FrameDraft draft;
   const auto most = static_cast<std::uint32_t>(config_.max_attempts);
   for (; context.frame_attempt < most; ++context.frame_attempt) {
     result.draws.clear();
     context.record = wishes.draws ? &result.draws : nullptr;
     result.graph = wishes.graph ? Json::object() : Json();
     context.graph = wishes.graph ? &result.graph : nullptr;
-    draft = draft_frame(context);
+    draft = draft_frame(std::move(draft.used), context);
     if (context.error) return tl::unexpected(*context.error);
-    unmet = checker_->first_unmet(*draft, context);
+    unmet = checker_->first_unmet(draft, context, result.constraints);
     if (context.error) return tl::unexpected(*context.error);
     if (unmet == nullptr) break;
   }
@@ -190,13 +214,14 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
                                most, unmet->name));
     return tl::unexpected(*context.error);
   }
-  placer_.choose_levels(*draft, context);
+  placer_.choose_levels(draft, context);
   if (context.error) return tl::unexpected(*context.error);
   result.attempts = context.frame_attempt + 1;
-  result.spec = std::move(draft->spec);
-  result.ground_buffer = draft->ground_buffer;
-  result.spec.instances.reserve(draft->placed.size());
-  for (PlacedInstance& instance : draft->placed) {
+  result.spec = std::move(draft.spec);
+  result.used = std::move(draft.used);
+  result.spec.instances.reserve(draft.placed.size());
+  for (PlacedInstance& instance : draft.placed) {
+    result.meshes.try_emplace(instance.spec.mesh, std::move(instance.buffer));
     result.spec.instances.push_back(std::move(instance.spec));
   }
   if (wishes.id) result.id = frame_id(result.spec);
@@ -210,37 +235,19 @@ SceneExpander& SceneExpander::operator=(SceneExpander&&) noexcept = default;
 
 Result<SceneExpander> SceneExpander::compile(const CampaignConfig& config, AssetLibrary assets,
                                              MaterialLibrary materials,
-                                             std::optional<Graphs> graphs) {
+                                             std::shared_ptr<const Graphs> graphs) {
   auto program =
       std::make_unique<Program>(config, std::move(assets), std::move(materials), std::move(graphs));
   if (Status compiled = program->compile(); !compiled) return forward_error(compiled);
   return SceneExpander(std::move(program));
 }
 
-Result<ExpandedFrame> SceneExpander::expand(std::int64_t frame, const ExpansionWishes& wishes) {
+Result<ExpandedFrame> SceneExpander::expand(std::int64_t frame,
+                                            const ExpansionWishes& wishes) const {
   return program_->expand(frame, wishes);
 }
 
 std::int64_t SceneExpander::frame_count() const { return program_->frame_count(); }
-
-const MeshBuffers& SceneExpander::mesh_buffers() const { return program_->placer().mesh_buffers(); }
-
-MeshBuffers SceneExpander::mesh_buffers_of(const ExpandedFrame& frame) const {
-  MeshBuffers buffers;
-  for (const InstanceSpec& instance : frame.spec.instances) {
-    const auto known = mesh_buffers().find(instance.mesh);
-    buffers[instance.mesh] = known != mesh_buffers().end() ? known->second : frame.ground_buffer;
-  }
-  return buffers;
-}
-
-const std::map<std::string, std::filesystem::path>& SceneExpander::image_files() const {
-  return program_->materials().files();
-}
-
-const std::map<std::string, std::string>& SceneExpander::asset_hashes() const {
-  return program_->placer().asset_hashes();
-}
 
 Result<std::vector<OfferedAsset>> SceneExpander::offered_assets() const {
   return program_->offered();
@@ -250,12 +257,14 @@ std::vector<OfferedImage> SceneExpander::offered_images() const {
   return program_->offered_images();
 }
 
-const MaterialLibrary& SceneExpander::material_library() const {
-  return program_->materials().library();
-}
+const AllowedFolders& SceneExpander::allowed_folders() const { return program_->allowed(); }
 
-const std::vector<ConstraintTally>& SceneExpander::constraint_tallies() const {
-  return program_->tallies();
+std::vector<std::string> SceneExpander::constraint_names() const {
+  std::vector<std::string> names;
+  for (const CompiledConstraint& constraint : program_->constraints()) {
+    names.push_back(constraint.name);
+  }
+  return names;
 }
 
 }  // namespace seedframe

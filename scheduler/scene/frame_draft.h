@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "assets/asset_library.h"
-#include "draws/draw.h"
+#include "assets/used_files.h"
+#include "draws/number_draw.h"
 #include "spec/frame_spec.h"
 
 namespace seedframe {
@@ -21,6 +22,7 @@ struct PlacedInstance {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of its bounding box, world
   std::size_t section = 0;                           ///< of the config's objects
   std::shared_ptr<const Asset> asset;                ///< none: the ground
+  std::shared_ptr<const std::string> buffer;         ///< of its mesh
   bool auto_detail = false;                          ///< may take a coarser level of the asset
 };
 
@@ -36,7 +38,7 @@ struct FrameDraft {
     Affine world_from_first = Affine::Identity();
   };
   std::vector<Section> sections;
-  std::shared_ptr<const std::string> ground_buffer;  ///< of the ground's mesh
+  UsedFiles used;  ///< also by earlier attempts at the frame
 };
 
 /// A value with its bounds; what is outside is reported, and something inside returned.

@@ -83,11 +83,11 @@ void add_lights(const CompiledConfig& config, const Affine& world_from_camera, F
     const Grid grid = light.grid ? evaluate_grid(*light.grid, kMostLights, context) : Grid();
     const std::uint32_t copies =
         light.grid ? grid.size() : copies_of(light.count, kMostLights, context);
-    *config.built_in.copies = copies;
+    context.values.numbers[config.built_in.copies] = copies;
     for (std::uint32_t copy = 0; copy < copies && !context.error; ++copy) {
       context.copy = copy;
       context.ordinal = copy;
-      *config.built_in.copy_index = copy;
+      context.values.numbers[config.built_in.copy_index] = copy;
       draft.spec.lights.push_back(one_light(light, grid.offset(copy), world_from_camera, context));
     }
     context.copy = kNoIndex;
@@ -95,12 +95,12 @@ void add_lights(const CompiledConfig& config, const Affine& world_from_camera, F
 }
 
 void set_world(const CompiledWorld& world, const Affine& world_from_camera,
-               MaterialPicker& materials, FrameDraft& draft, EvaluationContext& context) {
+               const MaterialPicker& materials, FrameDraft& draft, EvaluationContext& context) {
   WorldSpec& spec = draft.spec.world;
   spec.color = world.color.evaluate(context);
   spec.strength = not_negative(world.strength, "the world's strength", context);
   if (!world.hdri) return;
-  spec.hdri = materials.hdri(*world.hdri, context);
+  spec.hdri = materials.hdri(*world.hdri, draft, context);
   const double angle = world.rotation_deg.evaluate(context);
   const Eigen::Matrix3d map_from_world =
       rotation_and_scale({0.0, 0.0, -angle}, Eigen::Vector3d::Ones());

@@ -19,6 +19,6 @@ double spot_watts_from_lumens(double lumens, double luminance, double cone_rad);
 void add_lights(const CompiledConfig& config, const Affine& world_from_camera, FrameDraft& draft,
                 EvaluationContext& context);
 void set_world(const CompiledWorld& world, const Affine& world_from_camera,
-               MaterialPicker& materials, FrameDraft& draft, EvaluationContext& context);
+               const MaterialPicker& materials, FrameDraft& draft, EvaluationContext& context);
 
 }  // namespace seedframe

@@ -182,4 +182,13 @@ std::vector<std::string> MaterialLibrary::texture_set_names() const {
   return keys_of(texture_sets_);
 }
 
+std::vector<fs::path> MaterialLibrary::image_files() const {
+  std::vector<fs::path> files;
+  for (const auto& [name, set] : texture_sets_) {
+    for (const auto& [role, file] : set.files) files.push_back(file);
+  }
+  for (const auto& [name, file] : hdris_) files.push_back(file);
+  return files;
+}
+
 }  // namespace seedframe

@@ -50,6 +50,8 @@ class MaterialLibrary {
   /// Environment maps, <folder>/hdri/<name>.exr or .hdr: name to file.
   const std::map<std::string, std::filesystem::path>& hdris() const { return hdris_; }
   std::vector<std::string> hdri_names() const;
+  /// Of all texture sets, and the environment maps.
+  std::vector<std::filesystem::path> image_files() const;
   const AllowedFolders& allowed() const { return allowed_; }
 
  private:

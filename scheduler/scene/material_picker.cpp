@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include "base/sha256.h"
-#include "scene/frame_draft.h"
-
 namespace seedframe {
 
 std::string MaterialPicker::draw_name_of(const CompiledMaterials& materials,
@@ -31,8 +28,8 @@ std::string MaterialPicker::draw_name_of(const CompiledMaterials& materials,
   return name;
 }
 
-int MaterialPicker::add(const CompiledMaterials& materials, FrameSpec& spec,
-                        EvaluationContext& context) {
+int MaterialPicker::add(const CompiledMaterials& materials, FrameDraft& draft,
+                        EvaluationContext& context) const {
   const std::string name = draw_name_of(materials, context);
   const auto found = materials.by_name.find(name);
   if (found == materials.by_name.end()) {
@@ -53,46 +50,49 @@ int MaterialPicker::add(const CompiledMaterials& materials, FrameSpec& spec,
     // The material of a texture set stands in no file: then it is the user of it who is named.
     const Place& own = source.textures->place();
     add_textures(source.textures->evaluate(context), own.file.empty() ? materials.place : own,
-                 material, context);
+                 material, draft.used, context);
   }
-  const auto same = std::find(spec.materials.begin(), spec.materials.end(), material);
-  if (same != spec.materials.end()) return static_cast<int>(same - spec.materials.begin());
-  spec.materials.push_back(std::move(material));
-  return static_cast<int>(spec.materials.size()) - 1;
+  std::vector<MaterialSpec>& known = draft.spec.materials;
+  const auto same = std::find(known.begin(), known.end(), material);
+  if (same != known.end()) return static_cast<int>(same - known.begin());
+  known.push_back(std::move(material));
+  return static_cast<int>(known.size()) - 1;
 }
 
 void MaterialPicker::add_textures(const std::string& set, const Place& place,
-                                  MaterialSpec& material, EvaluationContext& context) {
+                                  MaterialSpec& material, UsedFiles& used,
+                                  EvaluationContext& context) const {
   const auto found = library_.texture_sets().find(set);
   if (found == library_.texture_sets().end()) {
     context.report(place, library_.no_texture_set(set));
     return;
   }
   for (const auto& [role, file] : found->second.files) {
-    material.textures[role] = hash_of(file, place, context);
+    material.textures[role] = use(file, place, used, context);
   }
 }
 
-std::string MaterialPicker::hdri(const NameDraw& draw, EvaluationContext& context) {
+std::string MaterialPicker::hdri(const NameDraw& draw, FrameDraft& draft,
+                                 EvaluationContext& context) const {
   const std::string name = draw.evaluate(context);
   const auto found = library_.hdris().find(name);
-  if (found != library_.hdris().end()) return hash_of(found->second, draw.place(), context);
+  if (found != library_.hdris().end()) {
+    return use(found->second, draw.place(), draft.used, context);
+  }
   context.report(draw.place(), library_.no_hdri(name));
   return "";
 }
 
-std::string MaterialPicker::hash_of(const std::filesystem::path& file, const Place& place,
-                                    EvaluationContext& context) {
-  const auto known = hashes_.find(file);
-  if (known != hashes_.end()) return known->second;
-  const Status inside = library_.allowed().check(file, file.string());
-  const Result<std::string> computed = inside ? sha256_of_file(file) : forward_error(inside);
-  if (!computed) {
-    context.report(place, computed.error().message);
+std::string MaterialPicker::use(const std::filesystem::path& file, const Place& place,
+                                UsedFiles& used, EvaluationContext& context) const {
+  Result<std::shared_ptr<const HashedFile>> hashed = hashes_->of(file, library_.allowed());
+  if (!hashed) {
+    context.report(place, hashed.error().message);
     return "";
   }
-  files_.try_emplace(*computed, file);
-  return hashes_.emplace(file, *computed).first->second;
+  std::string sha256 = (*hashed)->sha256;
+  used.images.try_emplace((*hashed)->sha256, std::move(*hashed));
+  return sha256;
 }
 
 }  // namespace seedframe

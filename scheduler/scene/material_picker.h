@@ -1,40 +1,40 @@
-// Draws materials into a frame spec, and knows the files that it names.
+// Draws materials and environment maps into a frame, and says which files they are.
 #pragma once
 
-#include <filesystem>
-#include <map>
+#include <memory>
 #include <string>
 
+#include "base/file_hashes.h"
 #include "scene/compiled_config.h"
+#include "scene/frame_draft.h"
 #include "scene/material_library.h"
 
 namespace seedframe {
 
+/// Safe to use from several threads.
 class MaterialPicker {
  public:
-  explicit MaterialPicker(MaterialLibrary library) : library_(std::move(library)) {}
+  explicit MaterialPicker(MaterialLibrary library)
+      : library_(std::move(library)), hashes_(std::make_unique<FileHashes>()) {}
 
   const MaterialLibrary& library() const { return library_; }
 
-  /// Draws a material; returns its index in spec.materials, where equal ones are one.
-  int add(const CompiledMaterials& materials, FrameSpec& spec, EvaluationContext& context);
+  /// Draws a material; returns its index in the spec's materials, where equal ones are one.
+  int add(const CompiledMaterials& materials, FrameDraft& draft, EvaluationContext& context) const;
 
   /// SHA-256 of an environment map's file, by its name.
-  std::string hdri(const NameDraw& draw, EvaluationContext& context);
-
-  /// Image files of all frames so far, by SHA-256.
-  const std::map<std::string, std::filesystem::path>& files() const { return files_; }
+  std::string hdri(const NameDraw& draw, FrameDraft& draft, EvaluationContext& context) const;
 
  private:
   std::string draw_name_of(const CompiledMaterials& materials, EvaluationContext& context) const;
   void add_textures(const std::string& set, const Place& place, MaterialSpec& material,
-                    EvaluationContext& context);
-  std::string hash_of(const std::filesystem::path& file, const Place& place,
-                      EvaluationContext& context);
+                    UsedFiles& used, EvaluationContext& context) const;
+  /// The SHA-256 of an image file, which becomes one of those used.
+  std::string use(const std::filesystem::path& file, const Place& place, UsedFiles& used,
+                  EvaluationContext& context) const;
 
   MaterialLibrary library_;
-  std::map<std::filesystem::path, std::string> hashes_;
-  std::map<std::string, std::filesystem::path> files_;
+  std::unique_ptr<FileHashes> hashes_;
 };
 
 }  // namespace seedframe

@@ -61,7 +61,7 @@ std::uint32_t copy_for_draws(std::uint32_t parent, std::uint32_t copy, const Pla
 }
 
 /// Numbers within which neither a pose nor its inverse leaves what doubles can hold, squared.
-bool can_be_computed_with(const Affine& pose) {
+bool is_computable(const Affine& pose) {
   constexpr double kLargest = 1e12;          // metres
   constexpr double kSmallestVolume = 1e-36;  // m³ of a cubic metre
   return pose.matrix().cwiseAbs().maxCoeff() <= kLargest &&
@@ -100,8 +100,8 @@ void ObjectPlacer::check_names(const CompiledObject& object, Diagnostics& errors
   }
 }
 
-void ObjectPlacer::place_all(const CompiledConfig& config, MaterialPicker& materials,
-                             FrameDraft& draft, EvaluationContext& context) {
+void ObjectPlacer::place_all(const CompiledConfig& config, const MaterialPicker& materials,
+                             FrameDraft& draft, EvaluationContext& context) const {
   draft.sections.assign(config.sections, {});
   Pass pass{config.built_in, materials, draft, context};
   Parent world;
@@ -112,34 +112,35 @@ void ObjectPlacer::place_all(const CompiledConfig& config, MaterialPicker& mater
   context.copy = kNoIndex;
 }
 
-void ObjectPlacer::place(const CompiledObject& object, Parent& parent, Pass& pass) {
+void ObjectPlacer::place(const CompiledObject& object, Parent& parent, Pass& pass) const {
   EvaluationContext& context = pass.context;
   context.copy = parent.copy;
   const auto most = static_cast<std::uint32_t>(kLargestInstanceId);
   const Grid grid = object.grid ? evaluate_grid(*object.grid, most, context) : Grid();
   const std::uint32_t copies = object.grid ? grid.size() : copies_of(object.count, most, context);
   // Of a copy of a group, for what comes after this object in it.
-  const double copies_of_parent = *pass.built_in.copies;
-  const double index_of_parent = *pass.built_in.copy_index;
+  std::vector<double>& values = context.values.numbers;
+  const double copies_of_parent = values[pass.built_in.copies];
+  const double index_of_parent = values[pass.built_in.copy_index];
   for (std::uint32_t copy = 0; copy < copies && !context.error; ++copy) {
     context.copy = copy_for_draws(parent.copy, copy, object.place, context);
     context.ordinal = pass.draft.sections[object.section].copies;
-    *pass.built_in.copies = copies;
-    *pass.built_in.copy_index = copy;
+    values[pass.built_in.copies] = copies;
+    values[pass.built_in.copy_index] = copy;
     place_copy(object, grid.offset(copy), fmt::format("{}{}/{}", parent.name, object.name, copy),
                parent, pass);
   }
-  *pass.built_in.copies = copies_of_parent;
-  *pass.built_in.copy_index = index_of_parent;
+  values[pass.built_in.copies] = copies_of_parent;
+  values[pass.built_in.copy_index] = index_of_parent;
 }
 
 void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3d& offset,
-                              const std::string& name, Parent& parent, Pass& pass) {
+                              const std::string& name, Parent& parent, Pass& pass) const {
   EvaluationContext& context = pass.context;
   object.variables.evaluate(context);
   std::shared_ptr<const Asset> asset;
   if (object.asset) {
-    asset = load_asset(object.asset->evaluate(context), object.asset->place(), context);
+    asset = load_asset(object.asset->evaluate(context), object.asset->place(), pass);
     if (!asset) return;
   }
   const Eigen::Vector3d rotation = object.rotation_deg.evaluate(context);
@@ -182,7 +183,7 @@ void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3
 void ObjectPlacer::place_instance(const CompiledObject& object,
                                   const std::shared_ptr<const Asset>& asset,
                                   const std::string& name, const Affine& world_from_object,
-                                  Pass& pass) {
+                                  Pass& pass) const {
   PlacedInstance instance;
   instance.spec.name = name;
   instance.spec.id = ++pass.draft.objects;
@@ -196,7 +197,7 @@ void ObjectPlacer::place_instance(const CompiledObject& object,
   instance.spec.mesh = asset->buffer_sha256;
   instance.spec.materials = slot_materials(object, *asset, pass);
   instance.spec.hidden_from = object.hidden_from;
-  if (!can_be_computed_with(world_from_object)) {
+  if (!is_computable(world_from_object)) {
     pass.context.report(
         object.place,
         fmt::format("'{}' is too large, too small or too far away to compute with", name));
@@ -205,11 +206,12 @@ void ObjectPlacer::place_instance(const CompiledObject& object,
   instance.centre = world_from_object * asset->box.centre();
   instance.section = object.section;
   instance.asset = asset;
+  instance.buffer = {asset, &asset->buffer};  // shares the asset's bytes instead of copying them
   instance.auto_detail = object.auto_detail;
   pass.draft.placed.push_back(std::move(instance));
 }
 
-void ObjectPlacer::choose_levels(FrameDraft& draft, EvaluationContext& context) {
+void ObjectPlacer::choose_levels(FrameDraft& draft, EvaluationContext& context) const {
   for (PlacedInstance& instance : draft.placed) {
     if (!instance.auto_detail || instance.asset->levels.size() < 2) continue;
     const Asset& asset = *instance.asset;
@@ -222,7 +224,7 @@ void ObjectPlacer::choose_levels(FrameDraft& draft, EvaluationContext& context) 
       return;
     }
     instance.spec.mesh = (*mesh)->buffer_sha256;
-    mesh_buffers_.try_emplace((*mesh)->buffer_sha256, *mesh, &(*mesh)->buffer);
+    instance.buffer = {*mesh, &(*mesh)->buffer};
   }
 }
 
@@ -233,10 +235,10 @@ std::vector<int> ObjectPlacer::slot_materials(const CompiledObject& object, cons
   for (const std::string& slot : asset.mesh.slot_names) {
     const auto own = object.slots.find(slot);
     if (own != object.slots.end()) {
-      materials.push_back(pass.materials.add(own->second, pass.draft.spec, pass.context));
+      materials.push_back(pass.materials.add(own->second, pass.draft, pass.context));
       continue;
     }
-    if (common < 0) common = pass.materials.add(object.materials, pass.draft.spec, pass.context);
+    if (common < 0) common = pass.materials.add(object.materials, pass.draft, pass.context);
     materials.push_back(common);
   }
   return materials;
@@ -258,18 +260,16 @@ int ObjectPlacer::category_index(const CompiledObject& object, const Asset& asse
 }
 
 std::shared_ptr<const Asset> ObjectPlacer::load_asset(const std::string& name, const Place& place,
-                                                      EvaluationContext& context) {
-  const auto known = loaded_.find(name);
-  if (known != loaded_.end()) return known->second;
+                                                      Pass& pass) const {
+  auto& used = pass.draft.used.assets;
+  const auto known = used.find(name);
+  if (known != used.end()) return known->second;
   auto asset = assets_.load(name);
   if (!asset) {
-    context.report(place, asset.error().message);
+    pass.context.report(place, asset.error().message);
     return nullptr;
   }
-  asset_hashes_.try_emplace(name, (*asset)->mesh_sha256);
-  // Shares the asset's bytes instead of copying them.
-  mesh_buffers_.try_emplace((*asset)->buffer_sha256, *asset, &(*asset)->buffer);
-  return loaded_.emplace(name, *asset).first->second;
+  return used.emplace(name, std::move(*asset)).first->second;
 }
 
 }  // namespace seedframe

@@ -1,12 +1,10 @@
 // Puts the objects of a config into the world.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "mesh/mesh_buffer.h"
 #include "scene/compiled_config.h"
 #include "scene/frame_draft.h"
 #include "scene/material_picker.h"
@@ -14,6 +12,7 @@
 
 namespace seedframe {
 
+/// Safe to use from several threads.
 class ObjectPlacer {
  public:
   ObjectPlacer(AssetLibrary assets, std::vector<std::string> categories)
@@ -25,17 +24,12 @@ class ObjectPlacer {
   void check_names(const CompiledObject& object, Diagnostics& errors) const;
 
   /// Adds all copies of all objects, parents before what is in them.
-  void place_all(const CompiledConfig& config, MaterialPicker& materials, FrameDraft& draft,
-                 EvaluationContext& context);
+  void place_all(const CompiledConfig& config, const MaterialPicker& materials, FrameDraft& draft,
+                 EvaluationContext& context) const;
 
   /// Gives instances with `auto_detail` the coarsest level of their asset whose error is below 1/20
   /// pixel at their nearest point. The camera must be known.
-  void choose_levels(FrameDraft& draft, EvaluationContext& context);
-
-  /// Mesh buffers of all frames so far, by SHA-256; without those of grounds.
-  const MeshBuffers& mesh_buffers() const { return mesh_buffers_; }
-  /// Assets used so far: name to SHA-256 of its file, for provenance.
-  const std::map<std::string, std::string>& asset_hashes() const { return asset_hashes_; }
+  void choose_levels(FrameDraft& draft, EvaluationContext& context) const;
 
  private:
   /// What a copy stands in: the world, or a copy of a group.
@@ -46,28 +40,26 @@ class ObjectPlacer {
     std::vector<Footprint> footprints;
   };
   struct Pass {  // what one frame's placing carries around
-    const BuiltInValues& built_in;
-    MaterialPicker& materials;
+    const BuiltInSlots& built_in;
+    const MaterialPicker& materials;
     FrameDraft& draft;
     EvaluationContext& context;
   };
 
-  void place(const CompiledObject& object, Parent& parent, Pass& pass);
+  void place(const CompiledObject& object, Parent& parent, Pass& pass) const;
   void place_copy(const CompiledObject& object, const Eigen::Vector3d& offset,
-                  const std::string& name, Parent& parent, Pass& pass);
+                  const std::string& name, Parent& parent, Pass& pass) const;
   void place_instance(const CompiledObject& object, const std::shared_ptr<const Asset>& asset,
-                      const std::string& name, const Affine& world_from_object, Pass& pass);
-  std::vector<int> slot_materials(const CompiledObject& object, const Asset& asset, Pass& pass);
+                      const std::string& name, const Affine& world_from_object, Pass& pass) const;
+  static std::vector<int> slot_materials(const CompiledObject& object, const Asset& asset,
+                                         Pass& pass);
   int category_index(const CompiledObject& object, const Asset& asset,
                      EvaluationContext& context) const;
   std::shared_ptr<const Asset> load_asset(const std::string& name, const Place& place,
-                                          EvaluationContext& context);
+                                          Pass& pass) const;
 
   AssetLibrary assets_;
   std::vector<std::string> categories_;
-  std::map<std::string, std::shared_ptr<const Asset>> loaded_;
-  MeshBuffers mesh_buffers_;
-  std::map<std::string, std::string> asset_hashes_;
 };
 
 }  // namespace seedframe

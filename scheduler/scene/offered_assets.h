@@ -1,21 +1,15 @@
 // Which assets a config can bring into a frame, and as what.
 #pragma once
 
-#include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "assets/asset_library.h"
+#include "assets/offered_asset.h"
 #include "base/error.h"
 #include "scene/compiled_config.h"
 
 namespace seedframe {
-
-struct OfferedAsset {
-  std::shared_ptr<const Asset> asset;
-  std::set<std::string> categories;  ///< that its instances may have; none: distractors only
-};
 
 /// By name. Of an asset whose name or category only a draw tells, every possibility is offered.
 Result<std::vector<OfferedAsset>> offered_assets(const std::vector<CompiledObject>& objects,

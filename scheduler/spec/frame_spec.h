@@ -82,6 +82,7 @@ struct InstanceSpec {
 };
 
 enum class LightKind { kPoint, kSun, kSpot, kArea };
+inline constexpr std::array<const char*, 4> kLightKindNames = {"point", "sun", "spot", "area"};
 
 /// Lights shine down their own -z, as Blender's do.
 struct LightSpec {
@@ -135,9 +136,6 @@ std::string non_finite_part(const FrameSpec& spec);
 /// The canonical JSON, which is hashed and sent to workers.
 std::string canonical_text(const FrameSpec& spec);
 Json to_json(const FrameSpec& spec);
-/// Reads what to_json wrote; a newer version, a missing key or a wrong type is an error that names
-/// `what`.
-Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what);
 
 /// SHA-256 of the canonical text, 64 hex digits.
 std::string frame_id(const FrameSpec& spec);

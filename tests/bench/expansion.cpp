@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "campaign/prepared_campaign.h"
+#include "scene/prepared_campaign.h"
 
 namespace seedframe {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "campaign/prepared_campaign.h"
+#include "scene/prepared_campaign.h"
 #include "tests/mesh/example_meshes.h"
 #include "twin/twin_comparison.h"
 
@@ -26,8 +26,8 @@ struct Frame {
 std::vector<Frame> demo_frames(const benchmark::State& state) {
   const std::string file = std::string(SEEDFRAME_HOME) + "/configs/parts.yaml";
   auto source = read_source(file,
-                            {{"render.width", std::to_string(state.range(0))},
-                             {"render.height", std::to_string(state.range(1))}},
+                            {"render.width=" + std::to_string(state.range(0)),
+                             "render.height=" + std::to_string(state.range(1))},
                             SEEDFRAME_HOME);
   auto campaign = prepare(std::move(*source));
   if (!campaign) {
@@ -37,7 +37,7 @@ std::vector<Frame> demo_frames(const benchmark::State& state) {
   std::vector<Frame> frames;
   for (std::int64_t i = 0; i < campaign->expander.frame_count(); ++i) {
     const auto expanded = campaign->expander.expand(i);
-    frames.push_back({expanded->spec, campaign->expander.mesh_buffers_of(*expanded)});
+    frames.push_back({expanded->spec, expanded->meshes});
   }
   return frames;
 }

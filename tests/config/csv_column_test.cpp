@@ -73,7 +73,7 @@ TEST_F(CsvColumn, BlanksAroundAFieldAndEmptyLinesDoNotMatter) {
 
 TEST_F(CsvColumn, APlusSignIsANumber) {
   EXPECT_THAT(values("size\n+3\n-4\n+1.5e+1\n"), ElementsAre(-4, 3, 15));
-  EXPECT_THAT(error("size\n+-3\n"), HasSubstr("wants a finite number, found '+-3'"));
+  EXPECT_THAT(error("size\n+-3\n"), HasSubstr("needs a finite number, found '+-3'"));
 }
 
 TEST_F(CsvColumn, ANumberTooSmallToTellFromZeroIsZero) {
@@ -90,12 +90,12 @@ TEST_F(CsvColumn, WhatIsNoFiniteNumberIsNamedByItsLine) {
     const char* expected;
   };
   const std::vector<Case> cases = {
-      {"name,size\na,3\nb,x\n", ":3: column 'size' wants a finite number, found 'x'"},
-      {"name,size\na,NaN\n", ":2: column 'size' wants a finite number, found 'NaN'"},
+      {"name,size\na,3\nb,x\n", ":3: column 'size' needs a finite number, found 'x'"},
+      {"name,size\na,NaN\n", ":2: column 'size' needs a finite number, found 'NaN'"},
       {"name,size\na,inf\n", "found 'inf'"},
       {"name,size\na,1e999\n", "found '1e999'"},
-      {"name,size\na,\n", ":2: column 'size' wants a finite number, found ''"},
-      {"name,size\na\n", ":2: column 'size' wants a finite number, found ''"},
+      {"name,size\na,\n", ":2: column 'size' needs a finite number, found ''"},
+      {"name,size\na\n", ":2: column 'size' needs a finite number, found ''"},
       {"name,size\na,3\n\nb\n", ":4: "},
       {"name,size\na,3 4\n", "found '3 4'"},
       {"name;size\na;3,5\n", "has no column 'size'"},

@@ -10,7 +10,7 @@
 namespace seedframe {
 namespace {
 
-using Mode = DeterminismConfig::Mode;
+using Mode = Determinism::Mode;
 using ::testing::HasSubstr;
 
 Result<CampaignConfig> read_with(const std::string& more) {

@@ -23,13 +23,11 @@ class Dice {
 };
 
 struct Variables {
-  double number = 2.0;
-  std::array<double, 3> vector = {1.0, 2.0, 3.0};
-  std::string text = "gear";
-  Scope scope = {{"a", number_symbol(&number)},
-                 {"d", number_symbol(&number, kLength)},
-                 {"v", {{ValueType::kVector, {}}, vector.data(), nullptr}},
-                 {"kind", {{ValueType::kText, {}}, nullptr, &text}}};
+  VariableValues values = {{2.0, 1.0, 2.0, 3.0}, {"gear"}};
+  Scope scope = {{"a", number_symbol(0)},
+                 {"d", number_symbol(0, kLength)},
+                 {"v", {{ValueType::kVector, {}}, 1}},
+                 {"kind", {{ValueType::kText, {}}, 0}}};
 };
 
 /// True if it was compiled; then it is evaluated as well.
@@ -38,7 +36,7 @@ bool try_formula(const std::string& text) {
   variables_in_formula(text);
   const auto formula = CompiledFormula::compile(text, variables.scope);
   if (formula) {
-    formula->vector();
+    formula->vector(variables.values);
     return true;
   }
   const std::string& message = formula.error().message;

@@ -3,6 +3,8 @@
 
 #include "config/campaign_config.h"
 #include "scene/expander.h"
+#include "scene/material_library.h"
+#include "spec/frame_spec_reader.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

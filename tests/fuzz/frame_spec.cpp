@@ -1,5 +1,4 @@
-#include "spec/frame_spec.h"
-
+#include "spec/frame_spec_reader.h"
 #include "tests/fuzz/promise.h"
 #include "tests/fuzz/targets.h"
 

@@ -144,13 +144,13 @@ TEST(Camera, CannotStandWhereItLooks) {
 
 TEST(Camera, UnitsAreChecked) {
   EXPECT_THAT(scene_error(with_camera("distance_m: 30deg")),
-              HasSubstr("camera.distance_m: this is in deg, but m is wanted here"));
+              HasSubstr("camera.distance_m: this is in deg, but m is needed here"));
   EXPECT_THAT(scene_error(with_camera("distance_m: 30deg + 2m")),
               HasSubstr("'+' between a number in deg and a number in m"));
   EXPECT_THAT(scene_error(with_camera("distance_m: 1, roll_deg: 1m")),
-              HasSubstr("this is in m, but deg is wanted here"));
+              HasSubstr("this is in m, but deg is needed here"));
   EXPECT_THAT(scene_error(with_camera("distance_m: 1, f_stop: 1m")),
-              HasSubstr("this is in m, but a plain number is wanted here"));
+              HasSubstr("this is in m, but a plain number is needed here"));
   EXPECT_EQ(scene_error(with_camera("distance_m: 150cm, azimuth_deg: 1rad, roll_deg: 90deg")),
             "(no error)");
 }

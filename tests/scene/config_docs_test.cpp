@@ -6,8 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "config/campaign_config.h"
 #include "formula/formula_functions.h"
 #include "scene/expander.h"
+#include "scene/material_library.h"
 #include "tests/config/config_page.h"
 
 namespace seedframe {
@@ -64,15 +66,13 @@ TEST(ConfigPage, ListsTheFunctionsThatThereAre) {
   for (std::string name : listed_in_formulas()) {
     if (std::isalpha(static_cast<unsigned char>(name[0])) == 0) continue;
     if (name.find('(') == std::string::npos) name += "(x)";
-    const double x = 0.5;
-    const std::array<double, 3> v = {1, 2, 3};
     Scope scope;
     for (const char* number :
          {"x", "y", "a", "b", "low", "high", "r", "g", "h", "s", "value", "angle", "T"}) {
-      scope[number] = number_symbol(&x);
+      scope[number] = number_symbol(0);
     }
     for (const char* vector : {"v", "w"}) {
-      scope[vector] = {{ValueType::kVector, {}}, v.data(), nullptr};
+      scope[vector] = {{ValueType::kVector, {}}, 0};
     }
     const auto compiled = CompiledFormula::compile(name, scope);
     EXPECT_TRUE(compiled) << name << (compiled ? "" : ": " + compiled.error().message);

@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "config/campaign_config.h"
+#include "scene/material_library.h"
 #include "scene/placement.h"
+#include "spec/frame_spec_reader.h"
 
 namespace seedframe {
 namespace {
@@ -241,7 +244,7 @@ TEST(SceneExpander, TextureSetsAreMaterials) {
   ASSERT_TRUE(frame) << frame.error().message;
   EXPECT_EQ(frame->spec.instances[0].id, 0);
   EXPECT_GE(frame->spec.materials[0].textures.size(), 3u);
-  EXPECT_EQ(expander->image_files().size(), frame->spec.materials[0].textures.size());
+  EXPECT_EQ(frame->used.images.size(), frame->spec.materials[0].textures.size());
 }
 
 TEST(SceneExpander, ImpossibleScenesAreErrorsThatNameTheKey) {
@@ -254,7 +257,7 @@ TEST(SceneExpander, ImpossibleScenesAreErrorsThatNameTheKey) {
       {"count: parts", "count: prats", "objects.gears.count: 'prats'"},
       {"count: parts", "count: copy_index", "objects.gears.count"},
       {"count: parts", "count: -1", "a count must be from 0"},
-      {"count: parts", "count: {normal: [0, -1]}", "normal wants std >= 0"},
+      {"count: parts", "count: {normal: [0, -1]}", "normal needs std >= 0"},
       {"count: parts", "count: 1/0", "a number must be finite"},
       {"asset: gear", "asset: gaer", "did you mean 'gear'?"},
       {"asset: gear", "asset: \"${which}\"", "no variable of names 'which'"},
@@ -266,7 +269,7 @@ TEST(SceneExpander, ImpossibleScenesAreErrorsThatNameTheKey) {
       {"categories: [gear]", "categories: []", "the category 'gear' of asset 'gear'"},
       {"roughness: {uniform: [0.2, 0.8]}", "roughness: 1.5", "roughness must be from 0 to 1"},
       {"roughness: {uniform: [0.2, 0.8]}", "roughness: {uniform: [0.8, 0.2]}",
-       "uniform wants min <= max"},
+       "uniform needs min <= max"},
       {"roughness: {uniform: [0.2, 0.8]}", "roughness: {integer: [0.5, 1]}", "whole numbers"},
       {"roughness: {uniform: [0.2, 0.8]}", "roughness: {log_uniform: [0, 1]}", "0 < min <= max"},
       {"roughness: {uniform: [0.2, 0.8]}", "roughness: {choice: {0.1: 0}}", "all weights are 0"},
@@ -328,7 +331,7 @@ camera: {{target: [0, 0, 0], distance_m: {}}}
                                         detail, distance_m));
     const auto frame = expander->expand(0);
     EXPECT_TRUE(frame) << frame.error().message;
-    return expander->mesh_buffers_of(*frame).at(frame->spec.instances[0].mesh)->size();
+    return frame->meshes.at(frame->spec.instances[0].mesh)->size();
   };
   const std::size_t whole = mesh_bytes("", 0.2);
   EXPECT_EQ(mesh_bytes(", detail: auto", 0.2), whole) << "near, nothing is left out";

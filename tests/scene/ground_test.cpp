@@ -22,12 +22,13 @@ TEST(Ground, IsAnInstanceWithoutALabel) {
   EXPECT_EQ(frame.spec.instances[0].name, "ground");
   EXPECT_EQ(frame.spec.instances[0].id, 0);
   EXPECT_EQ(frame.spec.instances[0].category, 0);
-  EXPECT_EQ(frame.spec.instances[0].mesh, sha256_hex(*frame.ground_buffer));
+  EXPECT_EQ(frame.spec.instances[0].mesh,
+            sha256_hex(*frame.meshes.at(frame.spec.instances[0].mesh)));
 }
 
 TEST(Ground, HasItsSizeAndCurvature) {
   const auto frame = first_frame(with_ground("width_m: 4, depth_m: 6m, curvature_per_m: 0.5"));
-  const auto mesh = mesh_from_buffer(*frame.ground_buffer, "ground");
+  const auto mesh = mesh_from_buffer(*frame.meshes.at(frame.spec.instances[0].mesh), "ground");
   ASSERT_TRUE(mesh);
   const BoundingBox box = bounding_box(*mesh);
   EXPECT_LT((box.low - Eigen::Vector3d(-2, -3, 0)).norm(), 1e-6);

@@ -147,7 +147,7 @@ TEST(FormulaFunctions, TowersAndDepthsEnd) {
   const Scope nothing;
   const auto ends = [&](const std::string& text) {
     const auto formula = CompiledFormula::compile(text, nothing);
-    if (formula) formula->vector();
+    if (formula) formula->vector({});
     return formula.has_value();
   };
   std::string tower = "9";

@@ -70,7 +70,7 @@ TEST(Lumens, AreRefusedWhereTheyMeanNothing) {
   EXPECT_THAT(scene_error(with_light("power: 1, lumens: 1")),
               HasSubstr("power and lumens exclude each other"));
   EXPECT_THAT(scene_error(with_light("lumens: 3W")),
-              HasSubstr("this is in W, but lm is wanted here"));
+              HasSubstr("this is in W, but lm is needed here"));
   EXPECT_THAT(scene_error(with_light("type: spot, lumens: 5, angle_deg: 0")),
               HasSubstr("lights.l.lumens: this takes more watts than can be computed with"));
 }
@@ -148,7 +148,7 @@ TEST(EnvironmentMap, IsNamedByItsContent) {
   ASSERT_TRUE(expander) << expander.error().message;
   const auto frame = frame_of(*expander);
   EXPECT_EQ(frame.spec.world.hdri.size(), 64u);
-  EXPECT_EQ(expander->image_files().at(frame.spec.world.hdri).filename(), "studio.exr");
+  EXPECT_EQ(frame.used.images.at(frame.spec.world.hdri)->path.filename(), "studio.exr");
   EXPECT_EQ(frame.spec.world.strength, 1.0);
 }
 

@@ -7,7 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "config/campaign_config.h"
+#include "draws/graphs.h"
 #include "scene/expander.h"
+#include "scene/material_library.h"
 
 namespace seedframe {
 
@@ -26,17 +29,17 @@ inline Result<SceneExpander> expander_of(const std::string& text,
   if (!config) return forward_error(config);
   auto materials = MaterialLibrary::open({kHome / "materials"}, config->materials);
   if (!materials) return forward_error(materials);
-  std::optional<Graphs> graphs;
+  std::shared_ptr<const Graphs> graphs;
   if (config->graphs) {
     auto opened = Graphs::open(*config->graphs);
     if (!opened) return forward_error(opened);
     config->scenes = opened->size();
-    graphs = std::move(*opened);
+    graphs = std::make_shared<const Graphs>(std::move(*opened));
   }
   return SceneExpander::compile(*config, built_in_assets(), *materials, std::move(graphs));
 }
 
-inline ExpandedFrame frame_of(SceneExpander& expander, std::int64_t frame = 0) {
+inline ExpandedFrame frame_of(const SceneExpander& expander, std::int64_t frame = 0) {
   auto expanded = expander.expand(frame, {.id = true, .draws = true, .graph = true});
   EXPECT_TRUE(expanded) << expanded.error().message;
   return expanded ? std::move(*expanded) : ExpandedFrame{};

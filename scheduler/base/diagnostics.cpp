@@ -1,4 +1,4 @@
-#include "config/diagnostics.h"
+#include "base/diagnostics.h"
 
 #include "base/message_text.h"
 
@@ -9,13 +9,6 @@ constexpr std::size_t kMostShown = 20;
 constexpr std::size_t kLongestMessage = 4000;  // bytes; a formula may have 2,000
 
 }  // namespace
-
-std::string Place::text() const {
-  std::string out = file;
-  if (line > 0) out += fmt::format(":{}:{}", line, column);
-  if (!path.empty()) out += ": " + path;
-  return out;
-}
 
 void Diagnostics::add(const Place& place, const std::string& message) {
   ++size_;

@@ -1,20 +1,29 @@
-#include "campaign/prepared_campaign.h"
-
-#include <algorithm>
+#include "scene/prepared_campaign.h"
 
 #include "base/files.h"
+#include "config/campaign_config.h"
+#include "config/config_node.h"
 #include "config/config_text.h"
+#include "draws/graphs.h"
+#include "scene/material_library.h"
+#include "scene/settings.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
 
-Result<CampaignSource> read_source(const fs::path& file, const std::vector<Override>& overrides,
+Result<CampaignSource> read_source(const fs::path& file, const std::vector<std::string>& set,
                                    const fs::path& home, const std::vector<std::string>& allowed) {
+  std::vector<Override> overrides;
+  for (const std::string& change : set) {
+    Result<Override> parsed = parse_override(change);
+    if (!parsed) return forward_error(parsed);
+    overrides.push_back(std::move(*parsed));
+  }
   Result<std::string> text = read_file(file, kLargestConfig);
   if (!text) return fail(ErrorKind::kInput, "{}", text.error().message);
   AllowedFolders folders({file.parent_path(), ".", "/usr/share"});
   for (const std::string& folder : allowed) folders.add(folder);
-  return CampaignSource{std::move(*text), file, overrides, home, std::move(folders)};
+  return CampaignSource{std::move(*text), file, std::move(overrides), home, std::move(folders)};
 }
 
 Result<PreparedCampaign> prepare(CampaignSource source) {
@@ -32,7 +41,7 @@ Result<PreparedCampaign> prepare(CampaignSource source) {
   Result<MaterialLibrary> materials =
       MaterialLibrary::open(material_folders, config->materials, allowed);
   if (!materials) return forward_error(materials);
-  std::optional<Graphs> graphs;
+  std::shared_ptr<const Graphs> graphs;
   if (config->graphs) {
     Result<Graphs> opened = Graphs::open(*config->graphs);
     if (!opened) return forward_error(opened);
@@ -43,37 +52,18 @@ Result<PreparedCampaign> prepare(CampaignSource source) {
                   "than {}",
                   config->graphs->string(), config->scenes, config->frames_per_scene, kMostFrames);
     }
-    graphs = std::move(*opened);
+    graphs = std::make_shared<const Graphs>(std::move(*opened));
   }
+  CampaignInputs inputs{config->files, asset_folders};
+  inputs.folders.insert(inputs.folders.end(), material_folders.begin(), material_folders.end());
+  // Those in folders behind symbolic links too.
+  const std::vector<fs::path> images = materials->image_files();
+  inputs.files.insert(inputs.files.end(), images.begin(), images.end());
   Result<SceneExpander> expander =
       SceneExpander::compile(*config, std::move(*assets), std::move(*materials), std::move(graphs));
   if (!expander) return forward_error(expander);
-  return PreparedCampaign{std::move(source), std::move(*config), std::move(*expander)};
-}
-
-Result<CampaignSize> expand_all(SceneExpander& expander, const ExpansionWishes& wishes,
-                                const std::function<Status(const ExpandedFrame&)>& visit) {
-  CampaignSize size{expander.frame_count(), SIZE_MAX, 0, 0};
-  for (std::int64_t frame = 0; frame < size.frames; ++frame) {
-    const Result<ExpandedFrame> expanded = expander.expand(frame, wishes);
-    if (!expanded) return forward_error(expanded);
-    const std::size_t instances = expanded->spec.instances.size();
-    size.least_instances = std::min(size.least_instances, instances);
-    size.most_instances = std::max(size.most_instances, instances);
-    size.attempts += expanded->attempts;
-    if (!visit) continue;
-    if (Status visited = visit(*expanded); !visited) return forward_error(visited);
-  }
-  return size;
-}
-
-std::string describe_constraints(const SceneExpander& expander) {
-  std::string text;
-  for (const ConstraintTally& tally : expander.constraint_tallies()) {
-    text +=
-        fmt::format("constraint {}: met in {} of {} draws\n", tally.name, tally.met, tally.checked);
-  }
-  return text;
+  return PreparedCampaign{std::move(source), settings_of(*config), std::move(inputs),
+                          std::move(*expander)};
 }
 
 }  // namespace seedframe

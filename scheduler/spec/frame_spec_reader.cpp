@@ -1,0 +1,146 @@
+#include "spec/frame_spec_reader.h"
+
+#include <algorithm>
+
+namespace seedframe {
+namespace {
+
+Affine matrix_from_json(const Json& numbers) {
+  Affine transform;
+  std::size_t next = 0;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      transform(row, column) = numbers.at(next++).get<double>();
+    }
+  }
+  return transform;
+}
+
+LightKind light_kind(const std::string& name) {
+  const auto found = std::find(kLightKindNames.begin(), kLightKindNames.end(), name);
+  if (found == kLightKindNames.end()) {
+    throw Json::other_error::create(501, "unknown kind of light '" + name + "'", nullptr);
+  }
+  return static_cast<LightKind>(found - kLightKindNames.begin());
+}
+
+LightSpec light_from_json(const Json& json) {
+  LightSpec light;
+  light.kind = light_kind(json.at("kind").get<std::string>());
+  light.camera_from_light = matrix_from_json(json.at("camera_from_light"));
+  json.at("color").get_to(light.color);
+  json.at("power").get_to(light.power);
+  light.radius_m = json.value("radius_m", 0.0);
+  light.angle_rad = json.value("angle_rad", 0.0);
+  light.blend = json.value("blend", 0.0);
+  light.width_m = json.value("width_m", 0.0);
+  light.height_m = json.value("height_m", 0.0);
+  return light;
+}
+
+MaterialSpec material_from_json(const Json& json) {
+  MaterialSpec material;
+  json.at("base_color").get_to(material.base_color);
+  json.at("metallic").get_to(material.metallic);
+  json.at("roughness").get_to(material.roughness);
+  json.at("specular").get_to(material.specular);
+  json.at("transmission").get_to(material.transmission);
+  json.at("ior").get_to(material.ior);
+  json.at("clearcoat").get_to(material.clearcoat);
+  json.at("texture_repeat").get_to(material.texture_repeat);
+  json.at("textures").get_to(material.textures);
+  return material;
+}
+
+InstanceSpec instance_from_json(const Json& json) {
+  InstanceSpec instance;
+  json.at("name").get_to(instance.name);
+  instance.id = integer_of<int>(json.at("id"));
+  instance.category = integer_of<int>(json.at("category"));
+  json.at("mesh").get_to(instance.mesh);
+  instance.asset = json.value("asset", std::string());
+  for (const Json& item : json.value("keypoints", Json::array())) {
+    const auto at = item.at("point_m").get<std::array<double, 3>>();
+    instance.keypoints.push_back(
+        {item.at("name").get<std::string>(), {at[0], at[1], at[2]}, item.at("inside").get<bool>()});
+  }
+  for (const Json& index : json.at("materials").get<std::vector<Json>>()) {
+    instance.materials.push_back(integer_of<int>(index));
+  }
+  instance.camera_from_object = matrix_from_json(json.at("camera_from_object"));
+  for (const Json& kind : json.at("hidden_from")) {
+    const auto name = kind.get<std::string>();
+    if (name == "camera") instance.hidden_from.camera = true;
+    if (name == "diffuse") instance.hidden_from.diffuse = true;
+    if (name == "glossy") instance.hidden_from.glossy = true;
+    if (name == "shadow") instance.hidden_from.shadow = true;
+    if (name == "transmission") instance.hidden_from.transmission = true;
+  }
+  return instance;
+}
+
+FrameSpec read(const Json& json) {
+  FrameSpec spec;
+  const Json& render = json.at("render");
+  spec.render.width = integer_of<int>(render.at("width"));
+  spec.render.height = integer_of<int>(render.at("height"));
+  spec.render.samples = integer_of<int>(render.at("samples"));
+  spec.render.seed = integer_of<std::uint32_t>(render.at("seed"));
+  spec.render.max_bounces = integer_of<int>(render.at("max_bounces"));
+  render.at("filter_width_px").get_to(spec.render.filter_width_px);
+  render.at("clamp_indirect").get_to(spec.render.clamp_indirect);
+  render.at("depth").get_to(spec.render.depth);
+  render.at("normal").get_to(spec.render.normal);
+  const Json& camera = json.at("camera");
+  camera.at("focal_px").get_to(spec.camera.focal_px);
+  camera.at("center_px").get_to(spec.camera.center_px);
+  camera.at("clip_start_m").get_to(spec.camera.clip_start_m);
+  camera.at("clip_end_m").get_to(spec.camera.clip_end_m);
+  camera.at("aperture_radius_m").get_to(spec.camera.aperture_radius_m);
+  camera.at("focus_distance_m").get_to(spec.camera.focus_distance_m);
+  const Json& world = json.at("world");
+  world.at("color").get_to(spec.world.color);
+  world.at("strength").get_to(spec.world.strength);
+  spec.world.hdri = world.value("hdri", std::string());
+  if (!spec.world.hdri.empty()) {
+    const Json& numbers = world.at("map_from_camera");
+    for (std::size_t i = 0; i < 9; ++i) {
+      spec.world.map_from_camera(static_cast<int>(i / 3), static_cast<int>(i % 3)) =
+          numbers.at(i).get<double>();
+    }
+  }
+  for (const Json& item : json.at("materials")) spec.materials.push_back(material_from_json(item));
+  for (const Json& item : json.at("instances")) spec.instances.push_back(instance_from_json(item));
+  for (const Json& item : json.at("lights")) spec.lights.push_back(light_from_json(item));
+  const Json& image = json.at("image");
+  image.at("display").get_to(spec.image.display);
+  image.at("view").get_to(spec.image.view);
+  image.at("look").get_to(spec.image.look);
+  image.at("exposure_stops").get_to(spec.image.exposure_stops);
+  image.at("gamma").get_to(spec.image.gamma);
+  const Json& labels = json.at("labels");
+  labels.at("twin_exact").get_to(spec.labels.twin_exact);
+  if (labels.at("source").get<std::string>() == "geometry") {
+    spec.labels.source = LabelSource::kTwin;
+  }
+  return spec;
+}
+
+}  // namespace
+
+Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what) {
+  const Result<int> version = json_field<int>(json, "version", what);
+  if (!version) return forward_error(version);
+  if (*version != kFrameSpecVersion) {
+    return fail(ErrorKind::kCorrupt,
+                "{} is a frame spec of version {}; this program reads version {}", what, *version,
+                kFrameSpecVersion);
+  }
+  try {
+    return read(json);
+  } catch (const Json::exception& error) {
+    return fail(ErrorKind::kCorrupt, "{} is not a frame spec: {}", what, error.what());
+  }
+}
+
+}  // namespace seedframe
