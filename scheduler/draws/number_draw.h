@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/philox.h"
 #include "base/diagnostics.h"
+#include "base/philox.h"
 #include "config/values.h"
 #include "draws/evaluation_context.h"
 #include "draws/sobol.h"
