@@ -113,5 +113,6 @@ def faults():
 
 if __name__ == "__main__":
     found = list(faults())
-    print("\n".join(found))
+    for line in found:
+        print(line)
     sys.exit(1 if found else 0)
