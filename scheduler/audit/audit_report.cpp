@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "base/files.h"
+
 namespace seedframe {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostListed = 20;
@@ -196,6 +199,29 @@ std::string audit_markdown(const std::string& title, const Audit& audit,
                         frame.picture.filename().string());
   }
   return text;
+}
+
+Status take_audit_folder(const fs::path& folder) {
+  std::error_code error;
+  const bool is_new = !fs::exists(folder, error);
+  const bool is_audit = fs::exists(folder / "report.json", error);
+  if (!is_new && !is_audit && !fs::is_empty(folder, error)) {
+    return fail(ErrorKind::kInput, "{} is neither empty nor an audit: give another folder with -o",
+                folder.string());
+  }
+  fs::remove_all(folder, error);
+  if (Status made = make_folders(folder); !made) return made;
+  return write_file(folder / "report.json", "{}\n");  // an audit that did not end
+}
+
+Status write_audit_report(const fs::path& folder, const std::string& title, const Audit& audit,
+                          const std::vector<AuditedExport>& exports) {
+  for (const auto& [name, text] :
+       {std::pair("report.md", audit_markdown(title, audit, exports)),
+        std::pair("report.json", readable_json(to_json(audit, exports)))}) {
+    if (Status written = write_file_atomically(folder / name, text); !written) return written;
+  }
+  return {};
 }
 
 }  // namespace seedframe

@@ -1,6 +1,7 @@
 // An audit told to programs and to people.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,12 @@ std::string audit_markdown(const std::string& title, const Audit& audit,
 
 /// A paragraph for a terminal: a line for each thing that was looked at.
 std::string audit_summary(const Audit& audit, const std::vector<AuditedExport>& exports);
+
+/// Makes or empties the folder of an audit. A kInput error for one that holds anything else.
+Status take_audit_folder(const std::filesystem::path& folder);
+
+/// Writes report.md and report.json.
+Status write_audit_report(const std::filesystem::path& folder, const std::string& title,
+                          const Audit& audit, const std::vector<AuditedExport>& exports);
 
 }  // namespace seedframe

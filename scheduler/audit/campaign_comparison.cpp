@@ -190,4 +190,20 @@ Result<CampaignComparison> compare_campaigns(const Campaign& first, const Campai
   return Comparer(first, second, tolerance, most_frames, heat_maps).compare();
 }
 
+Json to_json(const CampaignComparison& comparison) {
+  Json frames = Json::array();
+  for (const ComparedFrame& frame : comparison.frames) {
+    Json each = {{"frame", frame.frame}, {"kind", to_string(frame.kind)}};
+    if (!frame.spec.empty()) each["spec"] = frame.spec;
+    if (!frame.provenance.empty()) each["provenance"] = frame.provenance;
+    if (frame.difference) each["difference"] = to_json(*frame.difference);
+    frames.push_back(std::move(each));
+  }
+  return {{"first_hash", comparison.first_hash},
+          {"second_hash", comparison.second_hash},
+          {"identical", comparison.identical},
+          {"grade", to_string(comparison.grade)},
+          {"frames", frames}};
+}
+
 }  // namespace seedframe

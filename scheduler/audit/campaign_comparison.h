@@ -41,4 +41,6 @@ Result<CampaignComparison> compare_campaigns(const Campaign& first, const Campai
                                              const Tolerance& tolerance, std::int64_t most_frames,
                                              const std::filesystem::path& heat_maps);
 
+Json to_json(const CampaignComparison& comparison);
+
 }  // namespace seedframe

@@ -36,6 +36,12 @@ Conditions usual_conditions() {
   return all;
 }
 
+Conditions promised_conditions(Determinism::Mode mode) {
+  Conditions conditions = usual_conditions();
+  if (mode == Determinism::Mode::kPortable) conditions.insert(Condition::kIsa);
+  return conditions;
+}
+
 Result<Conditions> parse_conditions(std::string_view list) {
   Conditions conditions;
   if (list == "none") return conditions;

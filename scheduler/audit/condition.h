@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "spec/campaign_settings.h"
 
 namespace seedframe {
 
@@ -28,6 +29,8 @@ std::string describe(const Conditions& conditions);
 
 /// All that every mode promises to be without effect: all but kIsa.
 Conditions usual_conditions();
+/// All that this mode promises to be without effect.
+Conditions promised_conditions(Determinism::Mode mode);
 /// "threads,order", or "all", or "none"; kInput errors name what there is.
 Result<Conditions> parse_conditions(std::string_view list);
 

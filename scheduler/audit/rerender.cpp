@@ -5,7 +5,7 @@
 
 #include "base/cores.h"
 #include "base/files.h"
-#include "campaign/make_run.h"
+#include "campaign/campaign_runner.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -125,6 +125,7 @@ Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions o
   RunSetup setup = setup_;
   setup.options = std::move(options);
   setup.options.pool.workers = arrangement.workers;
+  setup.options.pause_limit_s = 0.0;
   setup.cache.clear();  // what is audited is never taken from anywhere
   std::error_code ignored;
   fs::remove_all(folder, ignored);
@@ -138,13 +139,11 @@ Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions o
   }
   Campaign campaign{files, std::move(*store)};
   if (Status begun = begin_run(campaign); !begun) return forward_error(begun);
-  Result<Provenance> provenance = Provenance::load(files, prepared_, used, setup);
-  if (!provenance) return forward_error(provenance);
   std::vector<PendingFrame> pending;
   pending.reserve(frames.size());
   for (const std::int64_t frame : frames) pending.push_back({frame, 0, 0});
-  const auto run = make_run(campaign, prepared_, *provenance, setup, observer_);
-  const Result<RunSummary> summary = run->run(pending);
+  CampaignRunner runner(campaign, prepared_, used, setup, observer_);
+  const Result<RunSummary> summary = runner.run_to_end(std::move(pending));
   if (!summary) return forward_error(summary);
   return campaign;
 }

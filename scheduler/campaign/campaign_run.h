@@ -19,6 +19,10 @@ class RunObserver {
   virtual void attempt_failed(const FrameJob& job, const AttemptFailure& failure) = 0;
   /// Something that the user should know, in a sentence.
   virtual void noted(const std::string& text) = 0;
+  /// Nothing can be written, or there is no memory: the run waits, at most so long, for it to pass.
+  virtual void paused(const Error& why, double limit_s) = 0;
+  /// After a pause, with so many frames.
+  virtual void goes_on(std::int64_t frames) = 0;
 };
 
 class CampaignRun {

@@ -5,7 +5,7 @@
 
 namespace seedframe {
 
-std::unique_ptr<CampaignRun> make_run(Campaign& campaign, PreparedCampaign& prepared,
+std::unique_ptr<CampaignRun> make_run(Campaign& campaign, const PreparedCampaign& prepared,
                                       Provenance& provenance, const RunSetup& setup,
                                       RunObserver& observer) {
   if (!setup.color) {

@@ -11,7 +11,7 @@
 namespace seedframe {
 
 /// All but the setup must outlive the run.
-std::unique_ptr<CampaignRun> make_run(Campaign& campaign, PreparedCampaign& prepared,
+std::unique_ptr<CampaignRun> make_run(Campaign& campaign, const PreparedCampaign& prepared,
                                       Provenance& provenance, const RunSetup& setup,
                                       RunObserver& observer);
 

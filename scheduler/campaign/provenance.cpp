@@ -129,7 +129,7 @@ Result<Provenance> Provenance::load(const CampaignFiles& files, const PreparedCa
   return Provenance(files.provenance(), std::move(json), std::move(*common));
 }
 
-Result<std::string> Provenance::of_worker(const ReadyMessage& ready) {
+Json Provenance::json_of_worker(const ReadyMessage& ready) const {
   Json attempt = common_;
   attempt["blender"] = ready.blender;
   attempt["build"] = ready.build;
@@ -137,7 +137,15 @@ Result<std::string> Provenance::of_worker(const ReadyMessage& ready) {
   attempt["embree"] = ready.embree;
   attempt["reciprocals"] = ready.reciprocals;
   attempt["libc"] = ready.libc;
-  return add(std::move(attempt));
+  return attempt;
+}
+
+std::string Provenance::text_of_worker(const ReadyMessage& ready) const {
+  return canonical_json(json_of_worker(ready));
+}
+
+Result<std::string> Provenance::of_worker(const ReadyMessage& ready) {
+  return add(json_of_worker(ready));
 }
 
 Result<std::string> Provenance::of_twin() { return add(common_); }

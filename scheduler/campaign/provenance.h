@@ -28,7 +28,11 @@ class Provenance {
   static Result<Provenance> load(const CampaignFiles& files, const PreparedCampaign& prepared,
                                  const UsedFiles& used, const RunSetup& setup);
 
-  /// Of attempts of this worker: canonical JSON. It goes into provenance.json if it is new.
+  /// What is the same for all attempts of this run, known before any worker starts.
+  const Json& common() const { return common_; }
+  /// Of attempts of this worker: canonical JSON.
+  std::string text_of_worker(const ReadyMessage& ready) const;
+  /// The same; it goes into provenance.json if it is new.
   Result<std::string> of_worker(const ReadyMessage& ready);
   /// A sentence, if the campaign's earlier runs were made with others, so that pixels may differ.
   std::string departure(const std::string& attempt) const;
@@ -42,6 +46,7 @@ class Provenance {
         json_(std::move(json)),
         earlier_(json_["attempts"]),
         common_(std::move(common)) {}
+  Json json_of_worker(const ReadyMessage& ready) const;
   Result<std::string> add(Json attempt);
 
   std::filesystem::path path_;

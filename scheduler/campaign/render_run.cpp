@@ -1,11 +1,9 @@
 #include "campaign/render_run.h"
 
-#include "base/clock.h"
+#include <tbb/parallel_for.h>
+
 #include "base/files.h"
-#include "campaign/color_config.h"
 #include "campaign/disk_space.h"
-#include "frames/frame_link.h"
-#include "image_files/image_writer.h"
 #include "render/sandbox.h"
 
 namespace seedframe {
@@ -15,8 +13,8 @@ namespace {
 // Finishing a frame takes a small share of rendering it.
 constexpr int kFinishThreads = 2;
 
-/// What no worker needs, and none gets: so that a mad one takes neither memory nor disk from the
-/// others.
+/// What no worker needs, and none gets, so that one that runs wild takes neither memory nor disk
+/// from the others.
 ResourceLimits worker_limits(const PoolOptions& options) {
   constexpr std::uint64_t kMostFrames = 10'000;  // of a worker that is never worn out
   constexpr std::uint64_t kLargestFile = 16ULL << 30;
@@ -45,76 +43,172 @@ WorkerOptions worker_options(const RunOptions& options, const CampaignFiles& fil
 
 }  // namespace
 
-Result<ColorManagement> load_color_management(const CampaignSettings& settings,
-                                              const BlenderInfo& blender) {
-  Result<fs::path> path = settings.ocio_config
-                              ? Result<fs::path>(*settings.ocio_config)
-                              : find_ocio_config(blender.program, blender.major, blender.minor);
-  if (!path) return forward_error(path);
-  Result<ColorManagement> color = ColorManagement::load(*path);
-  if (!color) return color;
-  if (Status known = color->check(settings.image); !known) {
-    return fail(ErrorKind::kInput, "{}: {}",
-                settings.image_place.file.empty() ? "image" : settings.image_place.text(),
-                known.error().message);
-  }
-  if (Status possible = check_encoding(settings.image_encoding); !possible) {
-    return forward_error(possible);
-  }
-  return color;
-}
-
-RenderRun::RenderRun(Campaign& campaign, PreparedCampaign& prepared, Provenance& provenance,
+RenderRun::RenderRun(Campaign& campaign, const PreparedCampaign& prepared, Provenance& provenance,
                      const RunSetup& setup, RunObserver& observer)
     : campaign_(campaign),
       prepared_(prepared),
-      color_(setup.color),
       provenance_(provenance),
-      observer_(observer),
+      color_(setup.color),
       room_needed_(room_for_attempts(setup)),
-      cache_(FrameCache::open(setup.cache)),
-      take_from_cache_(!setup.options.no_cache),
+      cached_(setup.cache,
+              setup.options.no_cache ? CachedFrames::Use::kAdd : CachedFrames::Use::kTakeAndAdd,
+              prepared.settings, provenance.common(),
+              worker_options(setup.options, campaign.files)),
       finisher_(prepared.settings.categories, prepared.settings.twin_check,
                 1,  // the cores are the workers'
                 prepared.settings.image_encoding),
-      writer_(std::make_unique<StoreWriter>(
-          campaign.files, campaign.store,
-          [this](const StoreEvent& event, const Status& status) { written(event, status); })),
-      queue_(std::make_unique<FinishQueue>(kFinishThreads)),
       executor_(worker_options(setup.options, campaign.files)),
-      pool_(std::make_unique<WorkerPool>(setup.options.pool, executor_, *this)) {}
-
-RenderRun::~RenderRun() {
-  queue_.reset();
-  writer_.reset();
+      stage_(campaign, observer, *this, kFinishThreads) {
+  RenderClient& client = *this;
+  for (std::unique_ptr<WorkerPool>& pool : pools_) {
+    pool = std::make_unique<WorkerPool>(setup.options.pool, executor_, client);
+  }
 }
 
+RenderRun::~RenderRun() = default;
+
+void RenderRun::drain() {
+  drained_ = true;
+  for (const std::unique_ptr<WorkerPool>& pool : pools_) pool->drain();
+}
+
+void RenderRun::ends() { drain(); }
+
 Result<RunSummary> RenderRun::run(const std::vector<PendingFrame>& frames) {
-  for (const fs::path& folder : {campaign_.files.logs(), campaign_.files.work() / "meshes",
-                                 campaign_.files.work() / "attempts", campaign_.files.frames()}) {
-    if (Status made = make_folders(folder); !made) return forward_error(made);
-  }
-  queue_->push([this] { load_view_tables(); });
-  Result<RunSummary> summary = pool_->run(frames);
-  queue_.reset();   // waits for what is being finished
-  writer_.reset();  // and what is being written
-  std::error_code ignored;
-  fs::remove_all(campaign_.files.work(), ignored);
-  if (!error_) return forward_error(error_);
-  if (summary) summary->from_cache = from_cache_;
+  const Result<FrameIds> found = find_in_cache(frames);
+  if (!found) return forward_error(found);
+  Result<RunSummary> summary = run_once(frames, *found);
+  if (!cached_.was_mistaken() || taken_.empty()) return summary;
+  const Result<std::vector<PendingFrame>> again = give_back();
+  if (!again) return forward_error(again);
+  if (!summary) return summary;
+  pool_ = 1;
+  const Result<RunSummary> second = run_once(*again, {});
+  if (!second) return second;
+  summary->committed += second->committed - static_cast<std::int64_t>(again->size());
+  summary->failed += second->failed;
+  summary->quarantined += second->quarantined;
+  summary->left += second->left;
+  summary->worker_starts += second->worker_starts;
+  summary->from_cache = second->from_cache;
   return summary;
 }
 
-Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
-  const Result<std::uint64_t> room = free_bytes(campaign_.files.root());
-  if (room && *room < room_needed_) {
-    if (Status disk = check_disk(campaign_.files, room_needed_); !disk) return forward_error(disk);
+Result<RunSummary> RenderRun::run_once(const std::vector<PendingFrame>& frames,
+                                       const FrameIds& found) {
+  for (const fs::path& folder : {campaign_.files.logs(), campaign_.files.work() / "meshes"}) {
+    if (Status made = make_folders(folder); !made) return forward_error(made);
   }
-  Result<ExpandedFrame> expanded = prepared_.expander.expand(job.frame);
-  if (!expanded) return forward_error(expanded);
+  if (Status opened = stage_.open(); !opened) return forward_error(opened);
+  const std::vector<PendingFrame> rest = take_before_workers(frames, found);
+  Result<RunSummary> summary = RunSummary{};
+  if (!rest.empty()) {
+    stage_.push([this] { load_view_tables(); });
+    summary = pools_[pool_]->run(rest);
+  }
+  if (Status ended = stage_.close(); !ended) return forward_error(ended);
+  if (!summary) return summary;
+  summary->committed += static_cast<std::int64_t>(frames.size() - rest.size());
+  summary->from_cache = from_cache_;
+  return summary;
+}
+
+// ---- The cache ----
+
+Result<RenderRun::FrameIds> RenderRun::find_in_cache(const std::vector<PendingFrame>& frames) {
+  FrameIds found;
+  const std::optional<ReadyMessage> expected = cached_.expected_worker();
+  if (!expected) return found;
+  cached_.expect(provenance_.text_of_worker(*expected));
+  for (const PendingFrame& pending : frames) {
+    const auto row = campaign_.store.frame(pending.frame);
+    if (!row) return forward_error(row);
+    if (*row && cached_.has((*row)->frame_id)) found[pending.frame] = (*row)->frame_id;
+  }
+  if (found.empty()) return found;
+  const Result<std::string> made_with = provenance_.of_worker(*expected);
+  if (!made_with) return forward_error(made_with);
+  tell_departure(*made_with);
+  return found;
+}
+
+std::vector<PendingFrame> RenderRun::take_before_workers(const std::vector<PendingFrame>& frames,
+                                                         const FrameIds& found) {
+  if (found.empty()) return frames;
+  std::vector<char> taken(frames.size(), 0);
+  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+    const auto frame = found.find(frames[i].frame);
+    if (frame == found.end() || drained_) return;
+    const FrameJob job{frames[i].frame, frames[i].attempts_used + 1};
+    const Result<bool> took = take(job, frame->second);
+    if (!took) stage_.end(took.error());
+    taken[i] = took && *took ? 1 : 0;
+  });
+  std::vector<PendingFrame> rest;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (taken[i] == 0) {
+      rest.push_back(frames[i]);
+    } else {
+      taken_.push_back(frames[i].frame);
+    }
+  }
+  return rest;
+}
+
+Result<bool> RenderRun::take(const FrameJob& job, const std::string& frame_id) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string made_with = cached_.made_with();
+  if (!cached_.has(frame_id)) return false;
+  if (Status room = check_room(); !room) return forward_error(room);
   const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
   if (Status made = make_folders(attempt); !made) return forward_error(made);
-  if (take_from_cache(job, expanded->id, attempt)) return std::nullopt;
+  const std::optional<Manifest> manifest = cached_.take(frame_id, attempt);
+  if (!manifest) return false;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  ++from_cache_;
+  begin(job, kNoWorker, {frame_id, made_with});
+  stage_.commit({job, manifest->pixel_hash(), manifest->twin, {0.0, 0.0, seconds.count()}});
+  return true;
+}
+
+Result<std::vector<PendingFrame>> RenderRun::give_back() {
+  std::vector<PendingFrame> again;
+  const Status reset = campaign_.store.write_together(JobStore::Sync::kNow, [&]() -> Status {
+    for (const std::int64_t frame : taken_) {
+      const auto row = campaign_.store.frame(frame);
+      if (!row) return forward_error(row);
+      if (Status done = campaign_.store.reset(frame); !done) return done;
+      again.push_back({frame, (*row)->attempts, 0});
+    }
+    return {};
+  });
+  if (!reset) return forward_error(reset);
+  from_cache_ -= static_cast<std::int64_t>(taken_.size());
+  stage_.note(fmt::format(
+      "{} frames that were found on this machine were made with something else than its workers "
+      "now are, and are rendered",
+      taken_.size()));
+  taken_.clear();
+  return again;
+}
+
+// ---- What the pool asks and tells ----
+
+Status RenderRun::check_room() const {
+  const Result<std::uint64_t> room = free_bytes(campaign_.files.root());
+  if (!room || *room >= room_needed_) return {};
+  return check_disk(campaign_.files, room_needed_);
+}
+
+Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
+  if (Status room = check_room(); !room) return forward_error(room);
+  Result<ExpandedFrame> expanded = prepared_.expander.expand(job.frame);
+  if (!expanded) return forward_error(expanded);
+  const Result<bool> taken = take(job, expanded->id);
+  if (!taken) return forward_error(taken);
+  if (*taken) return std::nullopt;
+  const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
+  if (Status made = make_folders(attempt); !made) return forward_error(made);
   RenderRequest request;
   request.spec = canonical_text(expanded->spec);
   request.frame_id = expanded->id;
@@ -135,34 +229,6 @@ Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
   return request;
 }
 
-bool RenderRun::take_from_cache(const FrameJob& job, const std::string& frame_id,
-                                const fs::path& attempt) {
-  if (!cache_ || !take_from_cache_ || cache_key_.empty()) return false;
-  const auto start = std::chrono::steady_clock::now();
-  const std::optional<fs::path> found = cache_->find(frame_id, cache_key_);
-  if (!found) return false;
-  const Result<Manifest> manifest = link_frame(*found, frame_id, attempt);
-  if (!manifest) {
-    cache_->forget(frame_id, cache_key_);
-    return false;
-  }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  ++from_cache_;
-  writer_->push(AttemptStarted{job, kNoWorker, unix_time(), made_with_});
-  writer_->push(
-      FrameFinished{job, manifest->pixel_hash(), manifest->twin, {0.0, 0.0, seconds.count()}});
-  return true;
-}
-
-void RenderRun::add_to_cache(const FrameJob& job) {
-  if (!cache_ || !same_workers_) return;
-  const auto row = campaign_.store.frame(job.frame);
-  if (!row || !*row) return;
-  std::error_code ignored;
-  cache_->add((*row)->frame_id, cache_key_,
-              fs::absolute(campaign_.files.frame(job.frame), ignored));
-}
-
 Result<std::map<std::string, fs::path>> RenderRun::write_mesh_buffers(const MeshBuffers& meshes) {
   std::map<std::string, fs::path> paths;
   std::error_code error;
@@ -179,14 +245,25 @@ Result<std::map<std::string, fs::path>> RenderRun::write_mesh_buffers(const Mesh
   return paths;
 }
 
+void RenderRun::begin(const FrameJob& job, int worker, Attempt attempt) {
+  stage_.begin(job, worker, attempt.made_with);
+  const std::lock_guard lock(mutex_);
+  attempts_[job] = std::move(attempt);
+}
+
+RenderRun::Attempt RenderRun::ended(const FrameJob& job) {
+  const std::lock_guard lock(mutex_);
+  const auto attempt = attempts_.extract(job);
+  return attempt ? std::move(attempt.mapped()) : Attempt();
+}
+
 void RenderRun::started(const FrameJob& job, int worker) {
-  writer_->push(AttemptStarted{job, worker, unix_time(), provenance_of_worker_[worker]});
+  begin(job, worker, {tasks_.at(job).frame_id, provenance_of_worker_[worker]});
 }
 
 void RenderRun::rendered(const FrameJob& job, const RenderTimings& timings, int) {
   const auto task = tasks_.find(job);
-  queue_->push(
-      [this, job, timings, task = std::move(task->second)] { finish(job, timings, task); });
+  stage_.push([this, job, timings, task = std::move(task->second)] { finish(job, timings, task); });
   tasks_.erase(task);
 }
 
@@ -200,28 +277,27 @@ void RenderRun::finish(const FrameJob& job, const RenderTimings& timings, const 
   const Result<FinishedFrame> finished = finisher_.finish(task, *color_);
   const std::chrono::duration<double> finish_time = std::chrono::steady_clock::now() - start;
   if (!finished) {
-    pool_->post_verdict(job, forward_error(finished));
+    pools_[pool_]->post_verdict(job, forward_error(finished));
     return;
   }
-  writer_->push(FrameFinished{job,
-                              finished->pixel_hash,
-                              finished->twin,
-                              {timings.build_s, timings.render_s, finish_time.count()}});
+  stage_.commit({job,
+                 finished->pixel_hash,
+                 finished->twin,
+                 {timings.build_s, timings.render_s, finish_time.count()}});
 }
 
 Status RenderRun::check_system() { return check_disk(campaign_.files, room_needed_); }
 
 void RenderRun::attempt_failed(const FrameJob& job, const AttemptFailure& failure) {
   tasks_.erase(job);
-  std::error_code ignored;
-  fs::remove_all(campaign_.files.attempt(job.frame, job.attempt), ignored);
+  ended(job);
   AttemptFailure told = failure;
   if (failure.failure == Failure::kCrash) {
     keep_crash_log(job, failure);
     told.message += fmt::format("\nits last words are in {}",
                                 campaign_.files.crash_log(job.frame, job.attempt).string());
   }
-  writer_->push(AttemptFailed{job, std::move(told)});
+  stage_.fail(job, std::move(told));
 }
 
 void RenderRun::keep_crash_log(const FrameJob& job, const AttemptFailure& failure) const {
@@ -233,40 +309,27 @@ void RenderRun::keep_crash_log(const FrameJob& job, const AttemptFailure& failur
                   command_to_reproduce(campaign_.files.root(), job.frame), failure.log));
 }
 
-void RenderRun::written(const StoreEvent& event, const Status& status) {
-  keep_error(status);
-  if (const auto* finished = std::get_if<FrameFinished>(&event)) {
-    if (status) {
-      observer_.frame_done(finished->job.frame);
-      add_to_cache(finished->job);
-    }
-    pool_->post_verdict(finished->job, {});
-  }
-  if (const auto* failed = std::get_if<AttemptFailed>(&event)) {
-    observer_.attempt_failed(failed->job, failed->failure);
-  }
-}
-
 void RenderRun::worker_ready(int worker, const ReadyMessage& ready) {
-  Result<std::string> text = provenance_.of_worker(ready);
-  if (!text) return keep_error(forward_error(text));
-  const std::string departure = provenance_.departure(*text);
-  if (!departure.empty() && !std::exchange(departure_noted_, true)) observer_.noted(departure);
-  if (cache_ && cache_key_.empty()) {
-    made_with_ = *text;
-    cache_key_ = cache_key(Json::parse(*text), prepared_.settings);
-  }
-  if (*text != made_with_) same_workers_ = false;
-  provenance_of_worker_[worker] = std::move(*text);
+  Result<std::string> made_with = provenance_.of_worker(ready);
+  if (!made_with) return stage_.end(made_with.error());
+  tell_departure(*made_with);
+  cached_.worker_is_ready(ready, *made_with);
+  provenance_of_worker_[worker] = std::move(*made_with);
 }
 
-void RenderRun::keep_error(const Status& status) {
-  if (status) return;
-  {
-    const std::lock_guard lock(mutex_);
-    if (error_) error_ = status;
+void RenderRun::tell_departure(const std::string& made_with) {
+  const std::string departure = provenance_.departure(made_with);
+  if (!departure.empty() && !std::exchange(departure_told_, true)) stage_.note(departure);
+}
+
+// ---- What becomes of frames ----
+
+void RenderRun::frame_written(const FrameJob& job, const Status& status) {
+  const Attempt attempt = ended(job);
+  if (status && !attempt.made_with.empty()) {
+    cached_.add(attempt.frame_id, attempt.made_with, campaign_.files.frame(job.frame));
   }
-  pool_->drain();
+  pools_[pool_]->post_verdict(job, {});
 }
 
 }  // namespace seedframe

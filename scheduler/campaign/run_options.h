@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "image/color_management.h"
 #include "render/blender_info.h"
@@ -30,8 +32,9 @@ struct RunSetup {
   BlenderInfo blender;  ///< of no meaning when nothing is rendered
   /// None: labels by geometry, and Blender is not needed.
   std::shared_ptr<const ColorManagement> color;
-  std::filesystem::path cache;    ///< folder of the FrameCache; empty: there is none
-  std::uint64_t frame_bytes = 0;  ///< that a frame takes on the disk, about
+  std::filesystem::path cache;     ///< folder of the FrameCache; empty: there is none
+  std::uint64_t frame_bytes = 0;   ///< that a frame takes on the disk, about
+  std::vector<std::string> notes;  ///< that the user should read, a sentence each
 };
 
 }  // namespace seedframe

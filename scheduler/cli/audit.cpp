@@ -35,28 +35,10 @@ struct AuditArguments {
   bool json = false;
 };
 
-/// A folder that an audit may empty: a new one, an empty one, or an older audit.
-Status take_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  const bool is_new = !std::filesystem::exists(folder, error);
-  const bool is_audit = std::filesystem::exists(folder / "report.json", error);
-  if (!is_new && !is_audit && !std::filesystem::is_empty(folder, error)) {
-    return fail(ErrorKind::kInput, "{} is neither empty nor an audit: give another folder with -o",
-                folder.string());
-  }
-  std::filesystem::remove_all(folder, error);
-  if (Status made = make_folders(folder); !made) return made;
-  return write_file(folder / "report.json", "{}\n");  // an audit that did not end
-}
-
 Result<Conditions> conditions_to_vary(const AuditArguments& arguments,
                                       const PreparedCampaign& prepared) {
   if (!arguments.vary.empty()) return parse_conditions(arguments.vary);
-  Conditions conditions = usual_conditions();
-  if (prepared.settings.determinism.mode == Determinism::Mode::kPortable) {
-    conditions.insert(Condition::kIsa);
-  }
-  return conditions;
+  return promised_conditions(prepared.settings.determinism.mode);
 }
 
 /// Files and exports that are not as they were written outweigh how a frame comes out today.
@@ -99,7 +81,7 @@ int audit(AuditArguments& arguments) {
     setup = set_up_run(arguments.run, prepared->settings, prepared->expander.frame_count());
     if (!setup) return report(setup.error());
   }
-  if (Status taken = take_folder(options.folder); !taken) return report(taken.error());
+  if (Status taken = take_audit_folder(options.folder); !taken) return report(taken.error());
   Auditor auditor(*campaign, *prepared, *setup, options);
   if (Status looked = auditor.look(); !looked) return report(looked.error());
   const auto dataset = campaign_dataset(*campaign, *prepared);
@@ -110,20 +92,14 @@ int audit(AuditArguments& arguments) {
     return report(rendered.error());
   }
   const Audit& result = auditor.result();
-  const std::string json = readable_json(to_json(result, exports));
-  const auto folder = options.folder;
-  for (const auto& [name, text] :
-       {std::pair("report.md",
-                  audit_markdown(campaign->files.root().filename().string(), result, exports)),
-        std::pair("report.json", json)}) {
-    if (Status written = write_file_atomically(folder / name, text); !written) {
-      return report(written.error());
-    }
+  const std::string title = campaign->files.root().filename().string();
+  if (Status written = write_audit_report(options.folder, title, result, exports); !written) {
+    return report(written.error());
   }
   if (arguments.json) {
-    fmt::print("{}", json);
+    fmt::print("{}", readable_json(to_json(result, exports)));
   } else {
-    fmt::print("{}{} has the report\n", audit_summary(result, exports), folder.string());
+    fmt::print("{}{} has the report\n", audit_summary(result, exports), options.folder.string());
   }
   return exit_code_of(result, exports);
 }

@@ -25,22 +25,6 @@ struct CompareArguments {
   bool json = false;
 };
 
-Json comparison_json(const CampaignComparison& comparison) {
-  Json frames = Json::array();
-  for (const ComparedFrame& frame : comparison.frames) {
-    Json each = {{"frame", frame.frame}, {"kind", to_string(frame.kind)}};
-    if (!frame.spec.empty()) each["spec"] = frame.spec;
-    if (!frame.provenance.empty()) each["provenance"] = frame.provenance;
-    if (frame.difference) each["difference"] = to_json(*frame.difference);
-    frames.push_back(std::move(each));
-  }
-  return {{"first_hash", comparison.first_hash},
-          {"second_hash", comparison.second_hash},
-          {"identical", comparison.identical},
-          {"grade", to_string(comparison.grade)},
-          {"frames", frames}};
-}
-
 void print_frame(const ComparedFrame& frame) {
   fmt::print("frame {}: {}", frame.frame, to_string(frame.kind));
   if (frame.difference) {
@@ -94,7 +78,7 @@ int compare(const CompareArguments& arguments) {
       *first, *second, arguments.tolerance, arguments.most_frames, arguments.heat_maps);
   if (!comparison) return report(comparison.error());
   if (arguments.json) {
-    fmt::print("{}", readable_json(comparison_json(*comparison)));
+    fmt::print("{}", readable_json(to_json(*comparison)));
   } else {
     print_comparison(*comparison);
   }

@@ -9,6 +9,7 @@
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
+#include "report/frame_explanation.h"
 
 namespace seedframe {
 namespace {
@@ -20,74 +21,11 @@ struct ExplainArguments {
   bool json = false;
 };
 
-struct Explanation {
-  FrameRow row;
-  ExpandedFrame expanded;
-  std::vector<AttemptRow> attempts;
-  Result<Manifest> manifest;
-};
-
-Result<Explanation> explain_frame(const Campaign& campaign, const ExplainArguments& arguments) {
-  const std::int64_t frame = arguments.frame;
-  const auto row = campaign.store.frame(frame);
-  if (!row) return forward_error(row);
-  if (!*row) {
-    const auto counts = campaign.store.counts();
-    return fail(ErrorKind::kInput, "the campaign has no frame {}: its frames are 0 to {}", frame,
-                counts ? counts->total() - 1 : 0);
-  }
-  Result<PreparedCampaign> prepared = prepare_again(campaign, seedframe_home(), arguments.allowed);
-  if (!prepared) return forward_error(prepared);
-  Result<ExpandedFrame> expanded = prepared->expander.expand(frame, {.draws = true});
-  if (!expanded) return forward_error(expanded);
-  auto attempts = campaign.store.attempts(frame);
-  if (!attempts) return forward_error(attempts);
-  return Explanation{**row, std::move(*expanded), std::move(*attempts),
-                     read_manifest(campaign.files.frame(frame))};
-}
-
 std::string render_again_command(const ExplainArguments& arguments) {
   return fmt::format("seedframe resume {} --frame {}", arguments.folder, arguments.frame);
 }
 
-Json provenance_json(const AttemptRow& row) {
-  return row.provenance.empty() ? Json() : Json::parse(row.provenance, nullptr, false);
-}
-
-Json explanation_json(const Explanation& explanation, const ExplainArguments& arguments) {
-  Json draws = Json::object();
-  for (const Draw& draw : explanation.expanded.draws) draws[draw.name] = draw.value;
-  Json attempts = Json::array();
-  for (const AttemptRow& row : explanation.attempts) {
-    attempts.push_back({{"attempt", row.attempt},
-                        {"worker", row.worker},
-                        {"outcome", to_string(row.outcome)},
-                        {"build_s", row.build_s},
-                        {"render_s", row.render_s},
-                        {"finish_s", row.finish_s},
-                        {"message", row.message},
-                        {"provenance", provenance_json(row)}});
-  }
-  Json json = {{"frame", explanation.row.frame},
-               {"scene", explanation.row.scene},
-               {"frame_of_scene", explanation.expanded.view},
-               {"frame_id", explanation.row.frame_id},
-               {"state", to_string(explanation.row.state)},
-               {"unchanged", explanation.expanded.id == explanation.row.frame_id},
-               {"pixel_hash", explanation.row.pixel_hash},
-               {"draws", draws},
-               {"attempts", attempts},
-               {"render_again", render_again_command(arguments)}};
-  if (explanation.manifest) {
-    json["pixels"] = explanation.manifest->pixel_hashes;
-    if (explanation.manifest->pixel_hashes.contains("image")) {
-      json["image"] = to_json(explanation.manifest->image);
-    }
-  }
-  return json;
-}
-
-void print_explanation(const Explanation& explanation, const Campaign& campaign,
+void print_explanation(const FrameExplanation& explanation, const Campaign& campaign,
                        const ExplainArguments& arguments) {
   const FrameRow& row = explanation.row;
   fmt::print("frame {}: frame {} of scene {}, {}\n", row.frame, explanation.expanded.view,
@@ -119,7 +57,7 @@ void print_explanation(const Explanation& explanation, const Campaign& campaign,
                attempt.attempt, maker, to_string(attempt.outcome), attempt.build_s,
                attempt.render_s, attempt.finish_s, attempt.message.empty() ? "" : "\n  ",
                attempt.message);
-    const Json provenance = provenance_json(attempt);
+    const Json provenance = provenance_of(attempt);
     if (!provenance.contains("blender")) continue;
     const auto word = [&](const char* key) { return provenance.value(key, Json()).dump(); };
     fmt::print("  Blender {}, Cycles' kernel {}, Embree's {}, threads {}\n", word("blender"),
@@ -135,10 +73,13 @@ void print_explanation(const Explanation& explanation, const Campaign& campaign,
 int explain(const ExplainArguments& arguments) {
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
-  const Result<Explanation> explanation = explain_frame(*campaign, arguments);
+  const Result<PreparedCampaign> prepared =
+      prepare_again(*campaign, seedframe_home(), arguments.allowed);
+  if (!prepared) return report(prepared.error());
+  const Result<FrameExplanation> explanation = explain_frame(*campaign, *prepared, arguments.frame);
   if (!explanation) return report(explanation.error());
   if (arguments.json) {
-    fmt::print("{}", readable_json(explanation_json(*explanation, arguments)));
+    fmt::print("{}", readable_json(to_json(*explanation, render_again_command(arguments))));
   } else {
     print_explanation(*explanation, *campaign, arguments);
   }

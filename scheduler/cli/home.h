@@ -15,7 +15,7 @@ Result<std::filesystem::path> find_home();
 /// For verbs that main.cpp starts only if there is one.
 std::filesystem::path seedframe_home();
 
-/// Where frames of this machine are noted (campaign/frame_cache.h): the folder that the
+/// Where frames of this machine are noted (cache/frame_cache.h): the folder that the
 /// environment's SEEDFRAME_CACHE names, or ~/.cache/seedframe; empty if that is "off", or there is
 /// no home.
 std::filesystem::path cache_folder();

@@ -105,6 +105,17 @@ void Progress::noted(const std::string& text) {
   show(terminal_);
 }
 
+void Progress::paused(const Error& why, double limit_s) {
+  finish();
+  std::fprintf(stderr, "seedframe: paused: %s\n", why.message.c_str());
+  std::fprintf(stderr, "seedframe: waiting up to %s for it to pass; Ctrl-C ends\n",
+               duration_text(limit_s).c_str());
+}
+
+void Progress::goes_on(std::int64_t frames) {
+  std::fprintf(stderr, "seedframe: going on with %lld frames\n", static_cast<long long>(frames));
+}
+
 void Progress::finish() {
   if (line_open_) std::fputc('\n', stderr);
   line_open_ = false;

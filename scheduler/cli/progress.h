@@ -18,7 +18,8 @@ class Progress : public RunObserver {
   void frame_done(std::int64_t frame) override;
   void attempt_failed(const FrameJob& job, const AttemptFailure& failure) override;
   void noted(const std::string& text) override;
-  std::int64_t done() const { return done_; }
+  void paused(const Error& why, double limit_s) override;
+  void goes_on(std::int64_t frames) override;
   /// Ends the moving line.
   void finish();
 

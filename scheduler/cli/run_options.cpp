@@ -1,16 +1,11 @@
 #include "cli/run_options.h"
 
-#include <algorithm>
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
 
-#include "base/cores.h"
-#include "campaign/render_run.h"
+#include "campaign/run_setup.h"
 #include "cli/home.h"
-#include "plan/worker_plan.h"
-#include "render/memory.h"
-#include "render/sandbox.h"
 
 namespace seedframe {
 namespace {
@@ -76,85 +71,15 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
   verb.add_flag("--quiet", options.quiet, "no progress");
 }
 
-namespace {
-
-void make_choices(PoolOptions& pool, const RenderSettings& render, std::int64_t frames) {
-  const WorkerPlan plan =
-      choose_workers(render.width, render.height, render.samples, frames, core_count());
-  if (pool.worker.threads == 0) {
-    pool.worker.threads =
-        pool.workers > 0 ? std::max(1, core_count() / pool.workers) : plan.threads;
-  }
-  if (pool.workers == 0) pool.workers = plan.workers;
-  constexpr double kShare = 0.8;
-  if (pool.worker_memory_bytes == 0) {
-    pool.worker_memory_bytes = static_cast<std::int64_t>(
-        kShare * static_cast<double>(system_memory_bytes()) / pool.workers);
-  }
-}
-
-Result<RunSetup> set_up_rendering(RunOptions options, const CampaignSettings& settings,
-                                  std::int64_t frames) {
-  RunSetup setup;
-  WorkerOptions& worker = options.pool.worker;
-  Result<BlenderInfo> blender = probe_blender(worker.blender.string());
-  if (!blender) return forward_error(blender);
-  if (!blender->tested) {
-    std::fprintf(stderr,
-                 "seedframe: note: Blender %s is not a version that Seedframe is tested with "
-                 "(3.4); going on\n",
-                 blender->version.c_str());
-  }
-  Result<ColorManagement> color = load_color_management(settings, *blender);
-  if (!color) return forward_error(color);
-  worker.blender = blender->program;
-  worker.scripts = seedframe_home() / "blender_scripts";
-  worker.preload = worker_preload();
-  if (std::error_code error; !std::filesystem::exists(worker.preload, error)) {
-    return fail(ErrorKind::kEnvironment,
-                "{} is missing: it belongs beside the program, which was built with it",
-                worker.preload.string());
-  }
-  worker.conditions.persistent_data = settings.persistent_data;
-  if (settings.determinism.mode == Determinism::Mode::kPortable) {
-    worker.conditions.kernels = kernels_of(settings.determinism.isa);
-  }
-  make_choices(options.pool, settings.render, frames);
-  if (options.sandbox) {
-    if (Status works = check_sandbox(); !works) return forward_error(works);
-  }
-  // Frames that promise nothing are nobody else's.
-  if (settings.determinism.mode != Determinism::Mode::kNone) setup.cache = cache_folder();
-  setup.options = std::move(options);
-  setup.blender = std::move(*blender);
-  setup.color = std::make_shared<const ColorManagement>(std::move(*color));
-  return setup;
-}
-
-}  // namespace
-
-Result<RunSetup> set_up_run(RunOptions options, const CampaignSettings& settings,
+Result<RunSetup> set_up_run(const RunOptions& options, const CampaignSettings& settings,
                             std::int64_t frames) {
-  if (settings.labels == LabelSource::kIndexPass) {
-    return set_up_rendering(std::move(options), settings, frames);
+  const RunPlaces places{seedframe_home() / "blender_scripts", worker_preload(), cache_folder()};
+  Result<RunSetup> setup = set_up_run(options, places, settings, frames);
+  if (!setup) return setup;
+  for (const std::string& note : setup->notes) {
+    std::fprintf(stderr, "seedframe: note: %s\n", note.c_str());
   }
-  PoolOptions& pool = options.pool;
-  const std::int64_t frames_at_once = std::clamp<std::int64_t>(frames, 1, core_count());
-  if (pool.workers == 0) pool.workers = static_cast<int>(frames_at_once);
-  if (pool.worker.threads == 0) pool.worker.threads = std::max(1, core_count() / pool.workers);
-  RunSetup setup;
-  setup.options = std::move(options);
   return setup;
-}
-
-std::string describe(const RunSetup& setup) {
-  const PoolOptions& pool = setup.options.pool;
-  if (!setup.color) {
-    return fmt::format("{} frames at once, threads each: {}, without Blender", pool.workers,
-                       pool.worker.threads);
-  }
-  return fmt::format("{} × Blender {}, threads each: {}", pool.workers, setup.blender.version,
-                     pool.worker.threads);
 }
 
 }  // namespace seedframe

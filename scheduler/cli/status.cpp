@@ -4,11 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "campaign/campaign.h"
-#include "campaign/provenance.h"
 #include "cli/exit_code.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
+#include "report/campaign_status.h"
 
 namespace seedframe {
 namespace {
@@ -17,84 +16,6 @@ struct StatusArguments {
   std::string folder;
   bool json = false;
 };
-
-struct CampaignStatus {
-  FrameCounts counts;
-  std::optional<AttemptTimings> timings;
-  std::vector<AttemptRow> failures;
-  std::vector<FrameRow> quarantined;
-  TwinSummary twin;
-  std::string dataset_hash;
-  std::vector<std::string> provenances;
-  bool running = false;  ///< a scheduler is at work
-};
-
-constexpr int kTimedAttempts = 100;
-constexpr int kShownFailures = 5;
-constexpr int kShownQuarantined = 20;
-
-Result<CampaignStatus> read_status(const Campaign& campaign) {
-  CampaignStatus status;
-  const auto counts = campaign.store.counts();
-  if (!counts) return forward_error(counts);
-  status.counts = *counts;
-  const auto timings = campaign.store.mean_timings(kTimedAttempts);
-  if (!timings) return forward_error(timings);
-  status.timings = *timings;
-  const auto failures = campaign.store.recent_failures(kShownFailures);
-  if (!failures) return forward_error(failures);
-  status.failures = *failures;
-  const auto quarantined = campaign.store.frames_in(FrameState::kQuarantined, kShownQuarantined);
-  if (!quarantined) return forward_error(quarantined);
-  status.quarantined = *quarantined;
-  const auto twin = campaign.store.twin_summary();
-  if (!twin) return forward_error(twin);
-  status.twin = *twin;
-  const auto hash = campaign.store.dataset_hash();
-  if (!hash) return forward_error(hash);
-  status.dataset_hash = *hash;
-  const auto provenances = campaign.store.provenances();
-  if (!provenances) return forward_error(provenances);
-  status.provenances = *provenances;
-  status.running =
-      !CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0)).has_value();
-  return status;
-}
-
-Json status_json(const CampaignStatus& status) {
-  Json failures = Json::array();
-  for (const AttemptRow& row : status.failures) {
-    failures.push_back({{"frame", row.frame},
-                        {"attempt", row.attempt},
-                        {"outcome", to_string(row.outcome)},
-                        {"message", row.message}});
-  }
-  Json quarantined = Json::array();
-  for (const FrameRow& row : status.quarantined) {
-    quarantined.push_back({{"frame", row.frame}, {"crashes", row.crashes}, {"error", row.error}});
-  }
-  Json json = {{"frames", status.counts.total()},   {"done", status.counts.done},
-               {"pending", status.counts.pending},  {"running", status.counts.running},
-               {"failed", status.counts.failed},    {"quarantined", status.counts.quarantined},
-               {"quarantined_frames", quarantined}, {"active", status.running},
-               {"recent_failures", failures},       {"dataset_hash", status.dataset_hash}};
-  json["provenances"] = Json::array();
-  for (const std::string& text : status.provenances) {
-    json["provenances"].push_back(Json::parse(text, nullptr, /*allow_exceptions=*/false));
-  }
-  const TwinSummary& twin = status.twin;
-  json["twin"] = {{"frames", twin.frames},
-                  {"frames_differing", twin.frames_differing},
-                  {"pixels", twin.sum.pixels},
-                  {"inside_px", twin.sum.inside_px},
-                  {"edge_px", twin.sum.edge_px}};
-  if (status.timings) {
-    json["mean_seconds"] = {{"build", status.timings->build_s},
-                            {"render", status.timings->render_s},
-                            {"finish", status.timings->finish_s}};
-  }
-  return json;
-}
 
 std::string twin_text(const TwinSummary& twin) {
   return fmt::format(
@@ -121,17 +42,6 @@ void print_timings(const AttemptTimings& timings, const FrameCounts& counts) {
   }
 }
 
-/// Says so if frames may differ for being made with different things.
-void print_mixture(const std::vector<std::string>& provenances) {
-  if (provenances.empty()) return;
-  const auto json = [](const std::string& text) { return Json::parse(text, nullptr, false); };
-  for (const std::string& text : provenances) {
-    const std::string difference = describe_difference(json(text), json(provenances.front()));
-    if (difference.empty()) continue;
-    fmt::print("some attempts were made with {}: their pixels are not comparable\n", difference);
-  }
-}
-
 void print_status(const CampaignStatus& status, const std::string& folder) {
   const FrameCounts& counts = status.counts;
   fmt::print("{} frames: {} done, {} running, {} pending, {} failed, {} quarantined{}\n",
@@ -139,7 +49,9 @@ void print_status(const CampaignStatus& status, const std::string& folder) {
              counts.quarantined, status.running ? " (a scheduler is at work)" : "");
   if (status.timings) print_timings(*status.timings, counts);
   if (status.twin.frames > 0) fmt::print("{}", twin_text(status.twin));
-  print_mixture(status.provenances);
+  for (const std::string& difference : mixed_provenances(status)) {
+    fmt::print("some attempts were made with {}: their pixels are not comparable\n", difference);
+  }
   for (const AttemptRow& row : status.failures) {
     fmt::print("frame {}, attempt {} ({}): {}\n", row.frame, row.attempt, to_string(row.outcome),
                row.message);
@@ -161,7 +73,7 @@ int show_status(const StatusArguments& arguments) {
   const Result<CampaignStatus> status = read_status(*campaign);
   if (!status) return report(status.error());
   if (arguments.json) {
-    fmt::print("{}", readable_json(status_json(*status)));
+    fmt::print("{}", readable_json(to_json(*status)));
   } else {
     print_status(*status, arguments.folder);
   }

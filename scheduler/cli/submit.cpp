@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "campaign/disk_space.h"
 #include "campaign/input_images.h"
+#include "campaign/run_setup.h"
 #include "cli/allow_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"

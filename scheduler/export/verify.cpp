@@ -45,7 +45,7 @@ class Verification {
         workers, [this] { return next(); },
         [this](VerifyTask& task) { task.status = compare(task); },
         [this](const VerifyTask& task) { take(task); });
-    if (!error_) return forward_error(error_);
+    if (!outcome_) return forward_error(outcome_);
     finish();
     return std::move(summary_);
   }
@@ -147,8 +147,8 @@ class Verification {
 
   /// Keeps the first error.
   void fail_with(const Status& status) {
-    const std::lock_guard lock(error_mutex_);  // the cursor may fail while frames are taken
-    if (!failed_) error_ = status;
+    const std::lock_guard lock(outcome_mutex_);  // the cursor may fail while frames are taken
+    if (!failed_) outcome_ = status;
     failed_ = true;
   }
 
@@ -215,8 +215,8 @@ class Verification {
   EarlierExport written_;
   FrameCursor cursor_;
   std::atomic<bool> failed_ = false;
-  std::mutex error_mutex_;
-  Status error_;  ///< of the source
+  std::mutex outcome_mutex_;
+  Status outcome_;  ///< of reading the source
   std::int64_t listed_ = 0;
   VerifySummary summary_;
 };

@@ -24,7 +24,9 @@ bool is_program(const fs::path& path) {
   return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
 }
 
-Result<fs::path> find_program(const std::string& program) {
+}  // namespace
+
+Result<fs::path> find_blender(const std::string& program) {
   if (program.find('/') != std::string::npos) {
     std::error_code error;
     const fs::path path = fs::absolute(program, error);
@@ -50,8 +52,6 @@ Result<fs::path> find_program(const std::string& program) {
               kRemedy);
 }
 
-}  // namespace
-
 Result<BlenderInfo> parse_blender_version(const std::string& output) {
   // Libraries may have warned before Blender speaks.
   static const std::regex version(R"((?:^|\n)Blender (\d{1,4})\.(\d{1,4})(?:\.(\d{1,4}))?)");
@@ -74,7 +74,7 @@ Result<BlenderInfo> parse_blender_version(const std::string& output) {
 }
 
 Result<BlenderInfo> probe_blender(const std::string& program) {
-  const Result<fs::path> path = find_program(program);
+  const Result<fs::path> path = find_blender(program);
   if (!path) return forward_error(path);
   const Result<std::string> output = output_of({path->string(), "--version"}, kProbeTimeout);
   if (!output) return forward_error(output);

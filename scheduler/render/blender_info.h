@@ -18,6 +18,10 @@ struct BlenderInfo {
   bool tested = false;
 };
 
+/// The program by that path, or of that name in PATH, absolute. kEnvironment errors: not found, not
+/// executable.
+Result<std::filesystem::path> find_blender(const std::string& program);
+
 /// Finds `program` (a path, or a name to look up in PATH) and asks it for its version. kEnvironment
 /// errors: not found, not executable, not Blender, older than 3.3; each says what to do.
 Result<BlenderInfo> probe_blender(const std::string& program = "blender");

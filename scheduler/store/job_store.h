@@ -40,7 +40,7 @@ struct FrameRow {
   TwinTally twin;           ///< set when done
 };
 
-/// Of attempts that no worker made: the frame was there already (campaign/frame_cache.h).
+/// Of attempts that no worker made: the frame was there already (cache/frame_cache.h).
 inline constexpr int kNoWorker = -1;
 
 struct AttemptRow {

@@ -14,6 +14,7 @@ SEEDFRAME_FAKE in the environment is a JSON object; all keys are optional:
     "chatty_log_bytes": 1000            printed for each frame
     "delay_s": 0.1                      for each frame
     "starts_log": "path"                gets one line, the process id, for each start
+    "kernel": "avx"                     that it says it has, and "kernel_from": "path" the file that says it
     "depends_on": ["threads", "locale"] what a pixel of every frame depends on (see DEPENDENCIES)
 """
 
@@ -77,11 +78,17 @@ def main():
         hang()
     reader = os.fdopen(option("--read-fd"), "rb", closefd=False)
     send({"type": "ready", "protocol": wishes.get("protocol", 3), "blender": "3.4.1", "build": "fake",
-          "ocio_config": "", "kernel": wishes.get("kernel", kernel()), "embree": os.environ.get("SEEDFRAME_EMBREE_ISA", "avx2"), "reciprocals": "fake", "libc": ""})
+          "ocio_config": "", "kernel": wished_kernel(wishes), "embree": os.environ.get("SEEDFRAME_EMBREE_ISA", "avx2"), "reciprocals": "fake", "libc": ""})
     threading.Thread(target=give_signs_of_life, daemon=True).start()
     for rendered, line in enumerate(reader):
         send(answer(json.loads(line), wishes, rendered))
     return 0
+
+
+def wished_kernel(wishes):
+    if "kernel_from" in wishes:
+        return pathlib.Path(wishes["kernel_from"]).read_text(encoding="ascii").strip()
+    return wishes.get("kernel", kernel())
 
 
 def kernel():

@@ -1,4 +1,4 @@
-#include "campaign/frame_cache.h"
+#include "cache/frame_cache.h"
 
 #include "base/files.h"
 #include "base/sha256.h"
@@ -17,14 +17,15 @@ CREATE TABLE IF NOT EXISTS frames_1 (
   folder TEXT NOT NULL,
   PRIMARY KEY (frame_id, made_with)
 ) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS said_1 (subject TEXT PRIMARY KEY, said TEXT NOT NULL) WITHOUT ROWID;
 )sql";
 
 }  // namespace
 
 std::string cache_key(const Json& provenance, const CampaignSettings& settings) {
+  const TwinCheck& check = settings.twin_check;
   Json made_with = provenance;
   made_with.erase("threads");
-  const TwinCheck& check = settings.twin_check;
   Json key = {
       {"made_with", made_with},
       {"categories", settings.categories},
@@ -61,6 +62,19 @@ void FrameCache::forget(const std::string& frame_id, const std::string& key) {
   sqlite::Statement remove(connection_,
                            "DELETE FROM frames_1 WHERE frame_id = ? AND made_with = ?");
   (void)remove.bind(1, frame_id).bind(2, key).run();
+}
+
+std::optional<std::string> FrameCache::recall(const std::string& subject) {
+  const std::lock_guard lock(mutex_);
+  sqlite::Statement select(connection_, "SELECT said FROM said_1 WHERE subject = ?");
+  if (!select.bind(1, subject).step()) return std::nullopt;
+  return std::string(select.text(0));
+}
+
+void FrameCache::remember(const std::string& subject, const std::string& said) {
+  const std::lock_guard lock(mutex_);
+  sqlite::Statement insert(connection_, "INSERT OR REPLACE INTO said_1 VALUES (?, ?)");
+  (void)insert.bind(1, subject).bind(2, said).run();
 }
 
 }  // namespace seedframe

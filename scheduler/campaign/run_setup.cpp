@@ -1,0 +1,125 @@
+#include "campaign/run_setup.h"
+
+#include <algorithm>
+
+#include "base/cores.h"
+#include "cache/known_worker.h"
+#include "campaign/color_config.h"
+#include "image_files/image_writer.h"
+#include "plan/worker_plan.h"
+#include "render/memory.h"
+#include "render/sandbox.h"
+
+namespace seedframe {
+namespace {
+
+Status check_view(const CampaignSettings& settings, const ColorManagement& color) {
+  const Status known = color.check(settings.image);
+  if (known) return {};
+  return fail(ErrorKind::kInput, "{}: {}",
+              settings.image_place.file.empty() ? "image" : settings.image_place.text(),
+              known.error().message);
+}
+
+void choose_workers_to_render(PoolOptions& pool, const RenderSettings& render,
+                              std::int64_t frames) {
+  const WorkerPlan plan =
+      choose_workers(render.width, render.height, render.samples, frames, core_count());
+  if (pool.worker.threads == 0) {
+    pool.worker.threads =
+        pool.workers > 0 ? std::max(1, core_count() / pool.workers) : plan.threads;
+  }
+  if (pool.workers == 0) pool.workers = plan.workers;
+  constexpr double kShare = 0.8;
+  if (pool.worker_memory_bytes == 0) {
+    pool.worker_memory_bytes = static_cast<std::int64_t>(
+        kShare * static_cast<double>(system_memory_bytes()) / pool.workers);
+  }
+}
+
+void choose_threads_to_trace(PoolOptions& pool, std::int64_t frames) {
+  const std::int64_t at_once = std::clamp<std::int64_t>(frames, 1, core_count());
+  if (pool.workers == 0) pool.workers = static_cast<int>(at_once);
+  if (pool.worker.threads == 0) pool.worker.threads = std::max(1, core_count() / pool.workers);
+}
+
+Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
+                                  const CampaignSettings& settings, std::int64_t frames) {
+  RunSetup setup;
+  // Frames that promise nothing are nobody else's.
+  if (settings.determinism.mode != Determinism::Mode::kNone) setup.cache = places.cache;
+  WorkerOptions& worker = options.pool.worker;
+  const std::unique_ptr<FrameCache> cache =
+      FrameCache::open(options.no_cache ? std::filesystem::path() : setup.cache);
+  Result<Renderer> renderer =
+      find_renderer(worker.blender.string(), settings.ocio_config, cache.get());
+  if (!renderer) return forward_error(renderer);
+  if (Status known = check_view(settings, *renderer->color); !known) return forward_error(known);
+  if (Status possible = check_encoding(settings.image_encoding); !possible) {
+    return forward_error(possible);
+  }
+  if (!renderer->blender.tested) {
+    setup.notes.push_back(
+        fmt::format("Blender {} is not a version that Seedframe is tested with (3.4); going on",
+                    renderer->blender.version));
+  }
+  worker.blender = renderer->blender.program;
+  worker.scripts = places.scripts;
+  worker.preload = places.preload;
+  if (std::error_code error; !std::filesystem::exists(worker.preload, error)) {
+    return fail(ErrorKind::kEnvironment,
+                "{} is missing: it belongs beside the program, which was built with it",
+                worker.preload.string());
+  }
+  worker.conditions.persistent_data = settings.persistent_data;
+  if (settings.determinism.mode == Determinism::Mode::kPortable) {
+    worker.conditions.kernels = kernels_of(settings.determinism.isa);
+  }
+  choose_workers_to_render(options.pool, settings.render, frames);
+  if (options.sandbox) {
+    if (Status works = check_sandbox(); !works) return forward_error(works);
+  }
+  setup.options = std::move(options);
+  setup.blender = std::move(renderer->blender);
+  setup.color = std::move(renderer->color);
+  return setup;
+}
+
+}  // namespace
+
+Result<Renderer> find_renderer(const std::string& program,
+                               const std::optional<std::filesystem::path>& ocio_config,
+                               FrameCache* cache) {
+  Result<BlenderInfo> blender = known_blender(cache, program);
+  if (!blender) return forward_error(blender);
+  const Result<std::filesystem::path> path =
+      ocio_config ? Result<std::filesystem::path>(*ocio_config)
+                  : find_ocio_config(blender->program, blender->major, blender->minor);
+  if (!path) return forward_error(path);
+  Result<ColorManagement> color = ColorManagement::load(*path);
+  if (!color) return forward_error(color);
+  return Renderer{std::move(*blender), std::make_shared<const ColorManagement>(std::move(*color))};
+}
+
+Result<RunSetup> set_up_run(RunOptions options, const RunPlaces& places,
+                            const CampaignSettings& settings, std::int64_t frames) {
+  if (settings.labels == LabelSource::kIndexPass) {
+    return set_up_rendering(std::move(options), places, settings, frames);
+  }
+  choose_threads_to_trace(options.pool, frames);
+  RunSetup setup;
+  setup.options = std::move(options);
+  return setup;
+}
+
+std::string describe(const RunSetup& setup) {
+  const PoolOptions& pool = setup.options.pool;
+  if (!setup.color) {
+    return fmt::format("{} frames at once, threads each: {}, without Blender", pool.workers,
+                       pool.worker.threads);
+  }
+  return fmt::format("{} × Blender {}, threads each: {}", pool.workers, setup.blender.version,
+                     pool.worker.threads);
+}
+
+}  // namespace seedframe

@@ -1,0 +1,88 @@
+#include "report/campaign_status.h"
+
+#include "campaign/campaign_lock.h"
+#include "campaign/provenance.h"
+
+namespace seedframe {
+namespace {
+
+constexpr int kTimedAttempts = 100;
+constexpr int kShownFailures = 5;
+constexpr int kShownQuarantined = 20;
+
+}  // namespace
+
+Result<CampaignStatus> read_status(const Campaign& campaign) {
+  CampaignStatus status;
+  const auto counts = campaign.store.counts();
+  if (!counts) return forward_error(counts);
+  status.counts = *counts;
+  const auto timings = campaign.store.mean_timings(kTimedAttempts);
+  if (!timings) return forward_error(timings);
+  status.timings = *timings;
+  const auto failures = campaign.store.recent_failures(kShownFailures);
+  if (!failures) return forward_error(failures);
+  status.failures = *failures;
+  const auto quarantined = campaign.store.frames_in(FrameState::kQuarantined, kShownQuarantined);
+  if (!quarantined) return forward_error(quarantined);
+  status.quarantined = *quarantined;
+  const auto twin = campaign.store.twin_summary();
+  if (!twin) return forward_error(twin);
+  status.twin = *twin;
+  const auto hash = campaign.store.dataset_hash();
+  if (!hash) return forward_error(hash);
+  status.dataset_hash = *hash;
+  const auto provenances = campaign.store.provenances();
+  if (!provenances) return forward_error(provenances);
+  status.provenances = *provenances;
+  status.running =
+      !CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0)).has_value();
+  return status;
+}
+
+Json to_json(const CampaignStatus& status) {
+  Json failures = Json::array();
+  for (const AttemptRow& row : status.failures) {
+    failures.push_back({{"frame", row.frame},
+                        {"attempt", row.attempt},
+                        {"outcome", to_string(row.outcome)},
+                        {"message", row.message}});
+  }
+  Json quarantined = Json::array();
+  for (const FrameRow& row : status.quarantined) {
+    quarantined.push_back({{"frame", row.frame}, {"crashes", row.crashes}, {"error", row.error}});
+  }
+  Json json = {{"frames", status.counts.total()},   {"done", status.counts.done},
+               {"pending", status.counts.pending},  {"running", status.counts.running},
+               {"failed", status.counts.failed},    {"quarantined", status.counts.quarantined},
+               {"quarantined_frames", quarantined}, {"active", status.running},
+               {"recent_failures", failures},       {"dataset_hash", status.dataset_hash}};
+  json["provenances"] = Json::array();
+  for (const std::string& text : status.provenances) {
+    json["provenances"].push_back(Json::parse(text, nullptr, /*allow_exceptions=*/false));
+  }
+  const TwinSummary& twin = status.twin;
+  json["twin"] = {{"frames", twin.frames},
+                  {"frames_differing", twin.frames_differing},
+                  {"pixels", twin.sum.pixels},
+                  {"inside_px", twin.sum.inside_px},
+                  {"edge_px", twin.sum.edge_px}};
+  if (status.timings) {
+    json["mean_seconds"] = {{"build", status.timings->build_s},
+                            {"render", status.timings->render_s},
+                            {"finish", status.timings->finish_s}};
+  }
+  return json;
+}
+
+std::vector<std::string> mixed_provenances(const CampaignStatus& status) {
+  std::vector<std::string> differences;
+  const auto json = [](const std::string& text) { return Json::parse(text, nullptr, false); };
+  for (const std::string& text : status.provenances) {
+    std::string difference = describe_difference(json(text), json(status.provenances.front()));
+    if (!difference.empty()) differences.push_back(std::move(difference));
+  }
+  return differences;
+}
+
+}  // namespace seedframe
