@@ -13,13 +13,14 @@ using ::testing::Key;
 
 constexpr const char* kTwoKinds = R"(seedframe: 1
 scenes: 4
+max_attempts: 1000
 variables: {scene: {kind: {choice: [gear, washer]}}}
 sweep: {values: {count: [1, 3]}}
-objects: {parts: {asset: "${kind}", category: none, count: count, position: [copy_index, 0, 0]}}
+objects: {parts: {asset: "${kind}", category: none, count: count, position: [copy_index * 0.05, 0, 0.05]}}
 ground: {}
-camera: {target: [0, 0, 0], distance_m: {uniform: [1, 9]}}
-constraints: {near: {type: pixels, at_least: 40}}
-render: {width: 64, height: 64}
+camera: {target: [0, 0, 0], distance_m: {uniform: [0.3, 1.5]}, elevation_deg: 45}
+constraints: {near: {type: pixels, at_least: 100}}
+render: {width: 256, height: 256}
 )";
 
 TEST(ExpansionSummary, IsTheSumOverAllFrames) {
