@@ -9,11 +9,6 @@
 
 namespace seedframe {
 
-/// Bytes that a frame of this config typically takes. Measured on configs/parts.yaml (320 x 240
-/// with depth and normals at 32 samples: 2.78 MB; this says 2.81), so of other scenes half or twice
-/// as many are possible.
-std::uint64_t typical_frame_bytes(const CampaignSettings& settings);
-
 /// The mean of some frames that the campaign has already; typical_frame_bytes if there are none.
 Result<std::uint64_t> expected_frame_bytes(const Campaign& campaign,
                                            const CampaignSettings& settings);

@@ -14,6 +14,7 @@
 #include "cli/run_campaign.h"
 #include "cli/run_options.h"
 #include "cli/verb.h"
+#include "plan/frame_bytes.h"
 #include "scene/expansion_summary.h"
 
 namespace seedframe {
