@@ -104,7 +104,7 @@ std::vector<Conditions> Auditor::rounds() const {
 
 RunOptions Auditor::options_of(const Conditions& varied) const {
   RunOptions options = setup_.options;
-  options.pool.worker.threads = threads_;
+  options.worker.threads = threads_;
   return vary(std::move(options), varied, portable_, options_.folder / kElsewhere);
 }
 

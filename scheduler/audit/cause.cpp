@@ -114,7 +114,7 @@ Result<Cause> CauseFinder::find(std::int64_t frame, const std::string& expected,
 
 Result<std::string> CauseFinder::hash_of(const Trial& trial) {
   RunOptions options = run_;
-  WorkerOptions& worker = options.pool.worker;
+  WorkerOptions& worker = options.worker;
   options.pool.workers = 1;
   worker.threads = made_.threads;
   worker.conditions = {trial.kernels, trial.persistent_data};

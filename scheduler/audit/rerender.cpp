@@ -63,8 +63,7 @@ RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
   for (const Condition condition : varied) {
     switch (condition) {
       case Condition::kThreads:
-        options.pool.worker.threads =
-            options.pool.worker.threads == 1 ? std::max(2, core_count()) : 1;
+        options.worker.threads = options.worker.threads == 1 ? std::max(2, core_count()) : 1;
         break;
       case Condition::kWorkers:
         options.pool.workers = options.pool.workers == kWorkers ? kWorkers - 1 : kWorkers;
@@ -73,21 +72,21 @@ RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
         options.pool.frames_per_worker = 1;
         break;
       case Condition::kTmpdir:
-        options.pool.worker.environment["TMPDIR"] = temporary.string();
+        options.worker.environment["TMPDIR"] = temporary.string();
         break;
       case Condition::kLocale:
-        options.pool.worker.environment["LC_ALL"] = "de_DE.UTF-8";
-        options.pool.worker.environment["LANGUAGE"] = "de";
+        options.worker.environment["LC_ALL"] = "de_DE.UTF-8";
+        options.worker.environment["LANGUAGE"] = "de";
         break;
       case Condition::kTimezone:
-        options.pool.worker.environment["TZ"] = "Pacific/Chatham";
+        options.worker.environment["TZ"] = "Pacific/Chatham";
         break;
       case Condition::kIsa:
         if (portable) {
-          options.pool.worker.environment["GLIBC_TUNABLES"] =
+          options.worker.environment["GLIBC_TUNABLES"] =
               "glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX2,-FMA,-AVX";
         } else {
-          options.pool.worker.conditions.kernels = kernels_of(kOtherIsa);
+          options.worker.conditions.kernels = kernels_of(kOtherIsa);
         }
         break;
       case Condition::kOrder:    // of the frames, and

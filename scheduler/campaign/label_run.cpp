@@ -12,7 +12,7 @@ LabelRun::LabelRun(Campaign& campaign, const PreparedCampaign& prepared, Provena
       provenance_(provenance),
       frames_at_once_(setup.options.pool.workers),
       finisher_(prepared.settings.categories, prepared.settings.twin_check,
-                setup.options.pool.worker.threads),
+                setup.options.worker.threads),
       stage_(campaign, observer, *this, frames_at_once_) {}
 
 Result<RunSummary> LabelRun::run(const std::vector<PendingFrame>& frames) {

@@ -61,7 +61,7 @@ Result<std::string> hash_of_scripts(const std::filesystem::path& folder) {
 
 /// What is the same for all attempts of a run.
 Result<Json> common_facts(const std::string& ocio_hash, const RunSetup& setup) {
-  const WorkerOptions& worker = setup.options.pool.worker;
+  const WorkerOptions& worker = setup.options.worker;
   Json facts = {{"seedframe", SEEDFRAME_VERSION},  {"frame_spec", kFrameSpecVersion},
                 {"manifest", kManifestVersion},    {"labels", kLabelsVersion},
                 {"libraries", library_versions()}, {"twin_isa", ray_tracing_isa()},

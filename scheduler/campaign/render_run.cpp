@@ -15,14 +15,14 @@ constexpr int kFinishThreads = 2;
 
 /// What no worker needs, and none gets, so that one that runs wild takes neither memory nor disk
 /// from the others.
-ResourceLimits worker_limits(const PoolOptions& options) {
+ResourceLimits worker_limits(const RunOptions& options) {
   constexpr std::uint64_t kMostFrames = 10'000;  // of a worker that is never worn out
   constexpr std::uint64_t kLargestFile = 16ULL << 30;
   constexpr std::uint64_t kOpenFiles = 4096;
-  const std::uint64_t frames = options.frames_per_worker > 0
-                                   ? static_cast<std::uint64_t>(options.frames_per_worker)
+  const std::uint64_t frames = options.pool.frames_per_worker > 0
+                                   ? static_cast<std::uint64_t>(options.pool.frames_per_worker)
                                    : kMostFrames;
-  const auto frame_s = static_cast<std::uint64_t>(options.frame_timeout.count() / 1000 + 1);
+  const auto frame_s = static_cast<std::uint64_t>(options.pool.frame_timeout.count() / 1000 + 1);
   return {.memory_bytes = static_cast<std::uint64_t>(system_memory_bytes()),
           .cpu_s = (frames + 1) * frame_s * static_cast<std::uint64_t>(options.worker.threads),
           .file_bytes = kLargestFile,
@@ -31,9 +31,9 @@ ResourceLimits worker_limits(const PoolOptions& options) {
 
 /// With what only the campaign's folder says.
 WorkerOptions worker_options(const RunOptions& options, const CampaignFiles& files) {
-  WorkerOptions worker = options.pool.worker;
+  WorkerOptions worker = options.worker;
   worker.log_path = [files](int number) { return files.worker_log(number); };
-  worker.limits = worker_limits(options.pool);
+  worker.limits = worker_limits(options);
   if (options.sandbox) worker.wrapper = sandbox_arguments(files.work());
   // A killed Blender leaves its temporary folder behind; here it goes with the rest of work/.
   std::error_code ignored;

@@ -9,17 +9,19 @@
 
 #include "image/color_management.h"
 #include "render/blender_info.h"
+#include "render/worker_options.h"
 #include "render/worker_pool.h"
 
 namespace seedframe {
 
 /// The options of submit and resume, which set its members; an audit varies them.
 struct RunOptions {
-  RunOptions() { pool.workers = pool.worker.threads = 0; }
+  RunOptions() { pool.workers = worker.threads = 0; }
 
   /// Workers, their threads and their memory are chosen by set_up_run where they are 0. Without
   /// Blender `workers` are the frames that are traced at once, and `threads` those of each.
   PoolOptions pool;
+  WorkerOptions worker;
   bool sandbox = false;        ///< see sandbox.h
   bool no_cache = false;       ///< take no frame from the cache; frames are added all the same
   double pause_limit_s = 600;  ///< to wait for room when the disk is full; 0: not at all

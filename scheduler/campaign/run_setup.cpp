@@ -21,13 +21,14 @@ Status check_view(const CampaignSettings& settings, const ColorManagement& color
               known.error().message);
 }
 
-void choose_workers_to_render(PoolOptions& pool, const RenderSettings& render,
+void choose_workers_to_render(RunOptions& options, const RenderSettings& render,
                               std::int64_t frames) {
+  PoolOptions& pool = options.pool;
+  int& threads = options.worker.threads;
   const WorkerPlan plan =
       choose_workers(render.width, render.height, render.samples, frames, core_count());
-  if (pool.worker.threads == 0) {
-    pool.worker.threads =
-        pool.workers > 0 ? std::max(1, core_count() / pool.workers) : plan.threads;
+  if (threads == 0) {
+    threads = pool.workers > 0 ? std::max(1, core_count() / pool.workers) : plan.threads;
   }
   if (pool.workers == 0) pool.workers = plan.workers;
   constexpr double kShare = 0.8;
@@ -37,10 +38,12 @@ void choose_workers_to_render(PoolOptions& pool, const RenderSettings& render,
   }
 }
 
-void choose_threads_to_trace(PoolOptions& pool, std::int64_t frames) {
+void choose_threads_to_trace(RunOptions& options, std::int64_t frames) {
+  int& workers = options.pool.workers;
+  int& threads = options.worker.threads;
   const std::int64_t at_once = std::clamp<std::int64_t>(frames, 1, core_count());
-  if (pool.workers == 0) pool.workers = static_cast<int>(at_once);
-  if (pool.worker.threads == 0) pool.worker.threads = std::max(1, core_count() / pool.workers);
+  if (workers == 0) workers = static_cast<int>(at_once);
+  if (threads == 0) threads = std::max(1, core_count() / workers);
 }
 
 Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
@@ -48,7 +51,7 @@ Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
   RunSetup setup;
   // Frames that promise nothing are nobody else's.
   if (settings.determinism.mode != Determinism::Mode::kNone) setup.cache = places.cache;
-  WorkerOptions& worker = options.pool.worker;
+  WorkerOptions& worker = options.worker;
   const std::unique_ptr<FrameCache> cache =
       FrameCache::open(options.no_cache ? std::filesystem::path() : setup.cache);
   Result<Renderer> renderer =
@@ -75,7 +78,7 @@ Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
   if (settings.determinism.mode == Determinism::Mode::kPortable) {
     worker.conditions.kernels = kernels_of(settings.determinism.isa);
   }
-  choose_workers_to_render(options.pool, settings.render, frames);
+  choose_workers_to_render(options, settings.render, frames);
   if (options.sandbox) {
     if (Status works = check_sandbox(); !works) return forward_error(works);
   }
@@ -106,20 +109,19 @@ Result<RunSetup> set_up_run(RunOptions options, const RunPlaces& places,
   if (settings.labels == LabelSource::kIndexPass) {
     return set_up_rendering(std::move(options), places, settings, frames);
   }
-  choose_threads_to_trace(options.pool, frames);
+  choose_threads_to_trace(options, frames);
   RunSetup setup;
   setup.options = std::move(options);
   return setup;
 }
 
 std::string describe(const RunSetup& setup) {
-  const PoolOptions& pool = setup.options.pool;
+  const int workers = setup.options.pool.workers;
+  const int threads = setup.options.worker.threads;
   if (!setup.color) {
-    return fmt::format("{} frames at once, threads each: {}, without Blender", pool.workers,
-                       pool.worker.threads);
+    return fmt::format("{} frames at once, threads each: {}, without Blender", workers, threads);
   }
-  return fmt::format("{} × Blender {}, threads each: {}", pool.workers, setup.blender.version,
-                     pool.worker.threads);
+  return fmt::format("{} × Blender {}, threads each: {}", workers, setup.blender.version, threads);
 }
 
 }  // namespace seedframe

@@ -143,7 +143,7 @@ void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
                    "folder for the report (default: audit/ in the campaign's)")
       ->type_name("DIR");
   add_tolerance_options(*verb, options.tolerance);
-  std::filesystem::path& blender = arguments->run.pool.worker.blender;
+  std::filesystem::path& blender = arguments->run.worker.blender;
   verb->add_option("--blender", blender, "Blender to render with: a path, or a name in PATH")
       ->default_str(blender.string());
   add_allow_option(*verb, arguments->allowed);

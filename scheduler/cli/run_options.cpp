@@ -26,12 +26,12 @@ CLI::Option* add_seconds(CLI::App& verb, const std::string& name, milliseconds& 
 
 void add_run_options(CLI::App& verb, RunOptions& options) {
   PoolOptions& pool = options.pool;
-  verb.add_option("--blender", pool.worker.blender,
+  verb.add_option("--blender", options.worker.blender,
                   "Blender to render with: a path, or a name in PATH")
-      ->default_str(pool.worker.blender.string());
+      ->default_str(options.worker.blender.string());
   verb.add_option("--workers", pool.workers, "Blender processes (default: chosen)")
       ->check(CLI::Range(1, 256));
-  verb.add_option("--threads", pool.worker.threads, "threads of each (default: chosen)")
+  verb.add_option("--threads", options.worker.threads, "threads of each (default: chosen)")
       ->check(CLI::Range(1, 1024));
   verb.add_option("--max-attempts", pool.attempts.errors, "errors before a frame has failed")
       ->check(CLI::Range(1, 100))

@@ -12,13 +12,11 @@
 #include "render/message.h"
 #include "render/schedule.h"
 #include "render/worker.h"
-#include "render/worker_options.h"
 
 namespace seedframe {
 
 struct PoolOptions {
   int workers = 1;
-  WorkerOptions worker;  ///< of a LocalExecutor
   AttemptLimits attempts;
   std::chrono::milliseconds frame_timeout = std::chrono::seconds(600);  ///< see FrameTimeout
   std::chrono::milliseconds start_timeout = std::chrono::seconds(120);

@@ -18,7 +18,7 @@ class CampaignRunnerTest : public CampaignFixture {
  protected:
   CampaignRunnerTest() {
     setup_.options.pool.workers = 2;
-    setup_.options.pool.worker.threads = 1;
+    setup_.options.worker.threads = 1;
   }
 
   UsedFiles used_;

@@ -29,7 +29,7 @@ class RunSetupTest : public ::testing::Test {
     const fs::path path = scratch_ / "blender";
     EXPECT_TRUE(write_file(path, "#!/bin/sh\necho Blender " + version + "\n"));
     fs::permissions(path, fs::perms::owner_all);
-    options_.pool.worker.blender = path;
+    options_.worker.blender = path;
   }
   RunSetup set_up(std::int64_t frames = 100) const {
     Result<RunSetup> setup = set_up_run(options_, places_, settings_, frames);
@@ -51,35 +51,35 @@ class RunSetupTest : public ::testing::Test {
 TEST_F(RunSetupTest, ARenderingHasBlenderItsColoursAndItsScripts) {
   const RunSetup setup = set_up();
   EXPECT_EQ(setup.blender.version, "3.4.1");
-  EXPECT_EQ(setup.options.pool.worker.blender, scratch_ / "blender");
-  EXPECT_EQ(setup.options.pool.worker.scripts, places_.scripts);
-  EXPECT_EQ(setup.options.pool.worker.preload, places_.preload);
+  EXPECT_EQ(setup.options.worker.blender, scratch_ / "blender");
+  EXPECT_EQ(setup.options.worker.scripts, places_.scripts);
+  EXPECT_EQ(setup.options.worker.preload, places_.preload);
   EXPECT_NE(setup.color, nullptr);
   EXPECT_EQ(setup.cache, places_.cache);
   EXPECT_THAT(setup.notes, IsEmpty());
 }
 
 TEST_F(RunSetupTest, WhatIsLeftOpenIsChosen) {
-  const PoolOptions pool = set_up().options.pool;
-  EXPECT_GE(pool.workers, 1);
-  EXPECT_GE(pool.worker.threads, 1);
-  EXPECT_LE(pool.workers * pool.worker.threads, core_count());
-  EXPECT_GT(pool.worker_memory_bytes, 0);
+  const RunOptions options = set_up().options;
+  EXPECT_GE(options.pool.workers, 1);
+  EXPECT_GE(options.worker.threads, 1);
+  EXPECT_LE(options.pool.workers * options.worker.threads, core_count());
+  EXPECT_GT(options.pool.worker_memory_bytes, 0);
 }
 
 TEST_F(RunSetupTest, WhatIsAskedForStays) {
   options_.pool.workers = 3;
-  options_.pool.worker.threads = 5;
+  options_.worker.threads = 5;
   options_.pool.worker_memory_bytes = 123;
-  const PoolOptions pool = set_up().options.pool;
-  EXPECT_EQ(pool.workers, 3);
-  EXPECT_EQ(pool.worker.threads, 5);
-  EXPECT_EQ(pool.worker_memory_bytes, 123);
+  const RunOptions options = set_up().options;
+  EXPECT_EQ(options.pool.workers, 3);
+  EXPECT_EQ(options.worker.threads, 5);
+  EXPECT_EQ(options.pool.worker_memory_bytes, 123);
 }
 
 TEST_F(RunSetupTest, WorkersThatAreAskedForShareTheCores) {
   options_.pool.workers = 4 * core_count();
-  EXPECT_EQ(set_up().options.pool.worker.threads, 1);
+  EXPECT_EQ(set_up().options.worker.threads, 1);
 }
 
 TEST_F(RunSetupTest, OfABlenderThatIsNotTestedTheUserIsTold) {
@@ -88,7 +88,7 @@ TEST_F(RunSetupTest, OfABlenderThatIsNotTestedTheUserIsTold) {
 }
 
 TEST_F(RunSetupTest, WithoutBlenderThereIsNone) {
-  options_.pool.worker.blender = scratch_ / "nothing";
+  options_.worker.blender = scratch_ / "nothing";
   EXPECT_EQ(error().kind, ErrorKind::kEnvironment);
   EXPECT_THAT(error().message, HasSubstr("Blender not found"));
 }
@@ -106,9 +106,9 @@ TEST_F(RunSetupTest, AViewThatTheColoursDoNotKnowIsAMistakeOfTheConfig) {
 }
 
 TEST_F(RunSetupTest, PortableCampaignsPinTheKernels) {
-  EXPECT_FALSE(set_up().options.pool.worker.conditions.kernels);
+  EXPECT_FALSE(set_up().options.worker.conditions.kernels);
   settings_.determinism = {Determinism::Mode::kPortable, Isa::kAvx};
-  EXPECT_EQ(set_up().options.pool.worker.conditions.kernels, kernels_of(Isa::kAvx));
+  EXPECT_EQ(set_up().options.worker.conditions.kernels, kernels_of(Isa::kAvx));
 }
 
 TEST_F(RunSetupTest, FramesThatPromiseNothingAreNotCached) {
@@ -118,12 +118,12 @@ TEST_F(RunSetupTest, FramesThatPromiseNothingAreNotCached) {
 
 TEST_F(RunSetupTest, LabelsByGeometryNeedNoBlender) {
   settings_.labels = LabelSource::kTwin;
-  options_.pool.worker.blender = scratch_ / "nothing";
+  options_.worker.blender = scratch_ / "nothing";
   fs::remove(places_.preload);
   const RunSetup setup = set_up();
   EXPECT_EQ(setup.color, nullptr);
   EXPECT_EQ(setup.options.pool.workers, core_count());
-  EXPECT_EQ(setup.options.pool.worker.threads, 1);
+  EXPECT_EQ(setup.options.worker.threads, 1);
   EXPECT_THAT(describe(setup), HasSubstr("without Blender"));
 }
 
@@ -131,7 +131,7 @@ TEST_F(RunSetupTest, AFrameThatIsAloneIsTracedOnAllCores) {
   settings_.labels = LabelSource::kTwin;
   const RunSetup setup = set_up(1);
   EXPECT_EQ(setup.options.pool.workers, 1);
-  EXPECT_EQ(setup.options.pool.worker.threads, core_count());
+  EXPECT_EQ(setup.options.worker.threads, core_count());
 }
 
 }  // namespace

@@ -73,8 +73,8 @@ TEST_F(LocalPoolTest, TheWorkersEnvironmentIsSanitised) {
   const auto script = folder / "env_blender";
   std::ofstream(script) << "#!/bin/sh\nenv\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  options.worker.blender = script;
-  options.worker.environment["CYCLES_CPU_NO_AVX2"] = "1";
+  worker.blender = script;
+  worker.environment["CYCLES_CPU_NO_AVX2"] = "1";
   make_pool();
   const auto summary = run(1);
   unsetenv("PYTHONPATH");
@@ -96,7 +96,7 @@ TEST_F(LocalPoolTest, WorkersInheritNoOtherFile) {
   const auto script = folder / "ls_blender";
   std::ofstream(script) << "#!/bin/sh\nls -l /proc/$$/fd\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  options.worker.blender = script;
+  worker.blender = script;
   make_pool();
   EXPECT_FALSE(run(1));
   close(secret);
@@ -117,8 +117,8 @@ TEST_F(LocalPoolTest, ASandboxedWorkerWritesOnlyWhereItMayAndHasNoNetwork) {
                         << "cat /proc/net/dev | grep -c : \n"
                         << "echo process $$\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  options.worker.blender = script;
-  options.worker.wrapper = sandbox_arguments(folder / "work");
+  worker.blender = script;
+  worker.wrapper = sandbox_arguments(folder / "work");
   make_pool();
   EXPECT_FALSE(run(1));
   std::ifstream log(folder / "worker-0.log");
@@ -133,7 +133,7 @@ TEST_F(LocalPoolTest, ASandboxedWorkerWritesOnlyWhereItMayAndHasNoNetwork) {
 
 TEST_F(LocalPoolTest, ASandboxedWorkerRendersAndDiesWithTheOthers) {
   if (const Status works = check_sandbox(); !works) GTEST_SKIP() << works.error().message;
-  options.worker.wrapper = sandbox_arguments(folder);
+  worker.wrapper = sandbox_arguments(folder);
   options.heartbeat_timeout = std::chrono::seconds(2);
   make_pool({{"crash_frames", {1}}, {"freeze_frames", {2}}});
   const auto summary = run(4);
@@ -175,7 +175,7 @@ TEST_F(LocalPoolTest, ACrashCostsOneAttemptAndIsExplained) {
 
 TEST_F(LocalPoolTest, AWorkerThatTheKernelKilledForLackOfMemoryIsNoFramesFault) {
   int asked = 0;
-  options.worker.out_of_memory_kills = [&] { return asked++ == 0 ? 5 : 6; };
+  worker.out_of_memory_kills = [&] { return asked++ == 0 ? 5 : 6; };
   make_pool({{"out_of_memory_frames", {1}}});
   const auto summary = run(4);
   ASSERT_FALSE(summary);
@@ -214,7 +214,7 @@ TEST_F(LocalPoolTest, AWorkerThatIgnoresSigtermIsKilled) {
 }
 
 TEST_F(LocalPoolTest, AWorkerGetsNoMoreMemoryThanItsLimit) {
-  options.worker.limits.memory_bytes = 1 << 20;
+  worker.limits.memory_bytes = 1 << 20;
   make_pool();
   const auto summary = run(1);
   ASSERT_FALSE(summary) << "not even Python starts in a megabyte";
@@ -240,7 +240,7 @@ TEST_F(LocalPoolTest, AHangingStartCountsAsAFailedOne) {
 }
 
 TEST_F(LocalPoolTest, AProgramThatCannotBeStartedIsNamed) {
-  options.worker.blender = folder / "no-blender";
+  worker.blender = folder / "no-blender";
   make_pool();
   const auto summary = run(1);
   ASSERT_FALSE(summary);

@@ -19,11 +19,9 @@ class LocalPoolTest : public testing::Test {
  protected:
   LocalPoolTest() {
     client = std::make_unique<RecordingClient>(folder);
-    options.worker.blender = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
-    options.worker.scripts = SEEDFRAME_HOME "/blender_scripts";
-    options.worker.log_path = [this](int worker) {
-      return folder / fmt::format("worker-{}.log", worker);
-    };
+    worker.blender = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
+    worker.scripts = SEEDFRAME_HOME "/blender_scripts";
+    worker.log_path = [this](int number) { return folder / fmt::format("worker-{}.log", number); };
     // Long enough for a busy machine: only a test that wants a timeout sets a short one.
     options.frame_timeout = std::chrono::seconds(60);
   }
@@ -31,8 +29,8 @@ class LocalPoolTest : public testing::Test {
   /// `wishes` is SEEDFRAME_FAKE without the log of starts.
   void make_pool(Json wishes = Json::object()) {
     wishes["starts_log"] = starts_log().string();
-    options.worker.environment["SEEDFRAME_FAKE"] = wishes.dump();
-    executor = std::make_unique<LocalExecutor>(options.worker);
+    worker.environment["SEEDFRAME_FAKE"] = wishes.dump();
+    executor = std::make_unique<LocalExecutor>(worker);
     pool = std::make_unique<WorkerPool>(options, *executor, *client);
     if (!client->on_rendered) {
       client->on_rendered = [this](const FrameJob& job) {
@@ -64,6 +62,7 @@ class LocalPoolTest : public testing::Test {
 
   ScratchFolder folder;
   PoolOptions options;
+  WorkerOptions worker;
   std::unique_ptr<RecordingClient> client;
   std::unique_ptr<LocalExecutor> executor;
   std::unique_ptr<WorkerPool> pool;

@@ -37,15 +37,16 @@ class Renderer : public RenderClient {
     const auto blender = probe_blender();
     if (!blender) give_up(blender.error().message);
     PoolOptions options;
-    options.worker.blender = blender->program;
-    options.worker.scripts = scripts;
-    options.worker.log_path = [this](int) { return folder_ / "worker.log"; };
-    options.worker.threads = 2;
+    WorkerOptions worker;
+    worker.blender = blender->program;
+    worker.scripts = scripts;
+    worker.log_path = [this](int) { return folder_ / "worker.log"; };
+    worker.threads = 2;
     options.attempts = {1, 1};
     const auto& origin = scenes.blender_origin_m;
-    options.worker.environment["SEEDFRAME_STABILITY_ORIGIN"] =
+    worker.environment["SEEDFRAME_STABILITY_ORIGIN"] =
         fmt::format("{},{},{}", origin[0], origin[1], origin[2]);
-    executor_ = std::make_unique<LocalExecutor>(options.worker);
+    executor_ = std::make_unique<LocalExecutor>(worker);
     pool_ = std::make_unique<WorkerPool>(options, *executor_, *this);
   }
 

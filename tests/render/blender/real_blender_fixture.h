@@ -152,16 +152,17 @@ class RealBlender : public testing::Test, public RenderClient {
     const Result<BlenderInfo> blender = probe_blender();
     if (!blender) return forward_error(blender);
     PoolOptions options;
-    options.worker.blender = blender->program;
-    options.worker.scripts = SEEDFRAME_HOME "/blender_scripts";
-    options.worker.log_path = [this](int) { return folder / "worker.log"; };
-    options.worker.threads = threads;
+    WorkerOptions worker;
+    worker.blender = blender->program;
+    worker.scripts = SEEDFRAME_HOME "/blender_scripts";
+    worker.log_path = [this](int) { return folder / "worker.log"; };
+    worker.threads = threads;
     options.frames_per_worker = frames_per_worker;
-    options.worker.conditions = conditions;
-    options.worker.preload =
+    worker.conditions = conditions;
+    worker.preload =
         std::filesystem::path(SEEDFRAME_PROGRAM).parent_path() / "seedframe_worker_cpu.so";
     options.attempts = {1, 1};
-    executor = std::make_unique<LocalExecutor>(options.worker);
+    executor = std::make_unique<LocalExecutor>(worker);
     pool = std::make_unique<WorkerPool>(options, *executor, *this);
     std::vector<PendingFrame> pending;
     for (const std::int64_t frame : frames) pending.push_back({frame, 0});
