@@ -24,7 +24,7 @@ struct Frame {
 
 /// All frames of the demo config at a size.
 std::vector<Frame> demo_frames(const benchmark::State& state) {
-  const std::string file = std::string(SEEDFRAME_HOME) + "/configs/parts.yaml";
+  const std::string file = SEEDFRAME_HOME "/configs/parts.yaml";
   auto source = read_source(file,
                             {"render.width=" + std::to_string(state.range(0)),
                              "render.height=" + std::to_string(state.range(1))},
