@@ -192,7 +192,7 @@ TEST_F(PicturesTest, AreMadeAnewWhenTheConfigWantsOthers) {
   // Half of the way: what was not made anew is not taken for what is wanted.
   const Outcome half = blender({"resume", "c", "--frame", "1"});
   EXPECT_EQ(half.exit_code, 0) << half.errors;
-  EXPECT_THAT(half.errors, HasSubstr("4 frames are others now and are made again"));
+  EXPECT_THAT(half.errors, HasSubstr("4 frames have become different and are made again"));
   EXPECT_TRUE(fs::exists(frame("c", 1) / "image.jpg"));
   EXPECT_TRUE(fs::exists(frame("c", 2) / "image.png"));
   const Outcome whole = blender({"resume", "c"});
