@@ -35,7 +35,7 @@ Status check_input_images(const PreparedCampaign& prepared, const std::filesyste
   const AllowedFolders& allowed = prepared.expander.allowed_folders();
   Diagnostics errors;
   for (const OfferedImage& image : prepared.expander.offered_images()) {
-    const Status good = check_file(image, allowed, checked);
+    Status good = check_file(image, allowed, checked);
     if (good) continue;
     if (good.error().kind != ErrorKind::kInput) return good;
     errors.add(image.place, good.error().message);

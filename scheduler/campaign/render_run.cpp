@@ -83,7 +83,7 @@ Result<RunSummary> RenderRun::run(const std::vector<PendingFrame>& frames) {
   if (!again) return forward_error(again);
   if (!summary) return summary;
   pool_ = 1;
-  const Result<RunSummary> second = run_once(*again, {});
+  Result<RunSummary> second = run_once(*again, {});
   if (!second) return second;
   summary->committed += second->committed - static_cast<std::int64_t>(again->size());
   summary->failed += second->failed;

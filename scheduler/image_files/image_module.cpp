@@ -50,8 +50,8 @@ Result<const image_module::Table*> open_image_module(const std::vector<fs::path>
 }
 
 Result<const image_module::Table*> image_module_table() {
-  static const Result<const image_module::Table*> kTable = open_image_module(usual_places());
-  return kTable;
+  static const Result<const image_module::Table*> table = open_image_module(usual_places());
+  return table;
 }
 
 }  // namespace seedframe

@@ -29,19 +29,19 @@ std::array<float, 255> rounding_thresholds() {
 }
 
 Image<float> to_linear(const Image<std::uint8_t>& image) {
-  static const std::array<float, 256> kLinear = linear_values();
+  static const std::array<float, 256> linear_of = linear_values();
   Image<float> linear(image.width, image.height, image.channels);
   std::transform(image.values.begin(), image.values.end(), linear.values.begin(),
-                 [](std::uint8_t value) { return kLinear[value]; });
+                 [](std::uint8_t value) { return linear_of[value]; });
   return linear;
 }
 
 Image<std::uint8_t> to_srgb(const Image<float>& linear) {
-  static const std::array<float, 255> kThresholds = rounding_thresholds();
+  static const std::array<float, 255> thresholds = rounding_thresholds();
   Image<std::uint8_t> image(linear.width, linear.height, linear.channels);
   std::transform(linear.values.begin(), linear.values.end(), image.values.begin(), [](float value) {
-    const auto above = std::upper_bound(kThresholds.begin(), kThresholds.end(), value);
-    return static_cast<std::uint8_t>(above - kThresholds.begin());
+    const auto above = std::upper_bound(thresholds.begin(), thresholds.end(), value);
+    return static_cast<std::uint8_t>(above - thresholds.begin());
   });
   return image;
 }

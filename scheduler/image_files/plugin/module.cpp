@@ -31,8 +31,8 @@ void set_limits() {
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const Table* seedframe_image_module() {
-  static const bool kSet = (set_limits(), true);
-  (void)kSet;
+  static const bool set = (set_limits(), true);
+  (void)set;
   return &kTable;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kRowsAtOnce = 64;
 
-Values values_of(OIIO::TypeDesc type) {
+Values values_of(const OIIO::TypeDesc& type) {
   switch (type.basetype) {
     case OIIO::TypeDesc::UINT8:
       return Values::kUint8;
@@ -28,7 +28,7 @@ Values values_of(OIIO::TypeDesc type) {
 }
 
 Values values_of(const OIIO::ImageSpec& spec) {
-  const auto other = [&](OIIO::TypeDesc type) { return values_of(type) == Values::kOther; };
+  const auto other = [&](const OIIO::TypeDesc& type) { return values_of(type) == Values::kOther; };
   if (std::any_of(spec.channelformats.begin(), spec.channelformats.end(), other)) {
     return Values::kOther;
   }
@@ -42,7 +42,7 @@ bool is_cropped(const OIIO::ImageSpec& spec) {
 
 /// Rows [first, last), counted from the first; a tiled image is read by rows of tiles.
 bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int first, int last,
-               OIIO::TypeDesc type, void* values) {
+               const OIIO::TypeDesc& type, void* values) {
   const int y = spec.y + first;
   const int end = spec.y + last;
   if (spec.tile_width > 0) {
