@@ -7,7 +7,7 @@
 
 namespace seedframe::image_module {
 
-inline constexpr std::uint32_t kVersion = 2;
+inline constexpr std::uint32_t kVersion = 3;
 
 enum class Values : std::int32_t { kUint8, kUint16, kHalf, kFloat, kOther };
 
@@ -53,10 +53,6 @@ struct FloatPixels {
   float* values = nullptr;
 };
 
-struct Errors {
-  double max = 0.0, mean = 0.0, rms = 0.0;
-};
-
 /// Why a call returned false.
 struct Fault {
   char text[1024] = "";
@@ -70,8 +66,6 @@ struct Table {
   /// Fills `to`; the filters are the library's, by name.
   bool (*resize)(const FloatPixels* from, const FloatPixels* to, const char* filter_across,
                  const char* filter_down, Fault* fault) = nullptr;
-  bool (*compare)(const FloatPixels* a, const FloatPixels* b, Errors* errors,
-                  Fault* fault) = nullptr;
 };
 
 /// The one symbol of the module.

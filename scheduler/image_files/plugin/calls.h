@@ -14,7 +14,6 @@ bool read_image(const char* reader, const void* bytes, std::size_t size, const R
 bool write_image(const WriteRequest* request, const ByteSink* sink, Fault* fault);
 bool resize_image(const FloatPixels* from, const FloatPixels* to, const char* filter_across,
                   const char* filter_down, Fault* fault);
-bool compare_images(const FloatPixels* a, const FloatPixels* b, Errors* errors, Fault* fault);
 
 /// Writes the reason, as much of it as there is room for; returns false.
 bool refuse(Fault* fault, const std::string& reason);

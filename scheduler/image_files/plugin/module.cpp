@@ -17,7 +17,7 @@ bool refuse(Fault* fault, const std::string& reason) {
 
 namespace {
 
-constexpr Table kTable = {kVersion, read_image, write_image, resize_image, compare_images};
+constexpr Table kTable = {kVersion, read_image, write_image, resize_image};
 
 /// Once, before anything else is asked of the library.
 void set_limits() {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 #include <OpenImageIO/filter.h>
@@ -62,17 +61,6 @@ bool resize_image(const FloatPixels* from, const FloatPixels* to, const char* fi
     OIIO::ImageBuf result = buffer_of(*to);
     const bool done = OIIO::ImageBufAlgo::resize(result, source, &filter, OIIO::ROI::All(), 1);
     return done || refuse(fault, result.geterror());
-  });
-}
-
-bool compare_images(const FloatPixels* a, const FloatPixels* b, Errors* errors, Fault* fault) {
-  return guarded(fault, [&] {
-    constexpr float kAny = std::numeric_limits<float>::max();  // no difference is a failure
-    const auto results =
-        OIIO::ImageBufAlgo::compare(buffer_of(*a), buffer_of(*b), kAny, kAny, OIIO::ROI::All(), 1);
-    if (results.error) return refuse(fault, "OpenImageIO cannot compare them");
-    *errors = {results.maxerror, results.meanerror, results.rms_error};
-    return true;
   });
 }
 
