@@ -87,7 +87,7 @@ def _fill(mesh, buffer):
         mesh.polygons.foreach_set("loop_total", numpy.full(triangles, 3, dtype=numpy.int32))
     mesh.uv_layers.new(name="UVMap", do_init=False).data.foreach_set("uv", buffer["uvs"])
     for _ in range(buffer["slots"]):
-        mesh.materials.append(None)  # instances bring their own materials
+        mesh.materials.append(None)  # each frame sets its own
     mesh.polygons.foreach_set("material_index", buffer["material_slots"])
     smooth = buffer["smooth_angle"] > 0
     mesh.polygons.foreach_set("use_smooth", numpy.full(triangles, smooth, dtype=bool))

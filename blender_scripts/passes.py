@@ -27,6 +27,8 @@ class PassRenderer:
         render.filepath = output
         cycles.samples = settings["samples"]
         cycles.seed = settings["seed"]
+        _set_adaptive(cycles, settings.get("adaptive"))
+        _set_denoiser(cycles, settings["denoise"])
         cycles.filter_width = settings["filter_width_px"]
         cycles.sample_clamp_indirect = settings["clamp_indirect"]
         for limit in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces",
@@ -68,8 +70,6 @@ def _set_constants(scene):
 
 def _set_cycles(cycles):
     cycles.device = "CPU"
-    cycles.use_adaptive_sampling = False
-    cycles.use_denoising = False
     cycles.time_limit = 0.0
     cycles.light_sampling_threshold = 0.0
     cycles.pixel_filter_type = "BLACKMAN_HARRIS"
@@ -81,6 +81,21 @@ def _set_cycles(cycles):
     cycles.use_auto_tile = False
     if hasattr(cycles, "use_guiding"):  # Blender 3.4
         cycles.use_guiding = False
+
+
+def _set_adaptive(cycles, adaptive):
+    cycles.use_adaptive_sampling = adaptive is not None
+    if adaptive:
+        cycles.adaptive_threshold = adaptive["threshold"]
+        cycles.adaptive_min_samples = adaptive["min_samples"]
+
+
+def _set_denoiser(cycles, denoise):
+    cycles.use_denoising = denoise != "off"
+    if cycles.use_denoising:
+        cycles.denoiser = "OPENIMAGEDENOISE"
+        cycles.denoising_input_passes = "RGB_ALBEDO_NORMAL"
+        cycles.denoising_prefilter = "FAST" if denoise == "oidn_fast" else "ACCURATE"
 
 
 def _set_output(render):

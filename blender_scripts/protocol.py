@@ -7,7 +7,7 @@ import threading
 import time
 
 PROTOCOL = 3
-SPEC_VERSION = 4
+SPEC_VERSION = 5
 
 
 class ProtocolError(Exception):

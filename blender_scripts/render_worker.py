@@ -48,8 +48,8 @@ def _answer(request, builder, renderer):
         built = time.perf_counter()
         renderer.render(request.spec["render"], request.output, request.frame_id)
         if builder.make_sharp():  # the lens disturbs all passes: labels come from a pinhole
-            renderer.render({**request.spec["render"], "samples": 1}, sharp_output(request.output),
-                            request.frame_id)
+            once = {**request.spec["render"], "samples": 1, "adaptive": None, "denoise": "off"}
+            renderer.render(once, sharp_output(request.output), request.frame_id)
     except MemoryError:
         raise  # a fresh worker may have enough
     except Exception as error:  # one bad frame must not cost the worker

@@ -5,11 +5,13 @@ small frame. Nothing of an earlier frame may show: every value is overwritten, t
 that of the spec, and what a frame does not use is out of the scene.
 """
 
+import collections
+
 import bpy
 from mathutils import Matrix
 
 from image_cache import ImageCache
-from material_pool import MaterialPool
+from material_pool import MaterialPool, look_of, set_values
 from mesh_cache import MeshCache
 from world_builder import WorldBuilder
 
@@ -36,13 +38,13 @@ class SceneBuilder:
             cache.next_frame()
         self._set_camera(spec["camera"], spec["render"])
         self._world.set(spec["world"], texture_paths)
-        materials = [self._materials.get(m, texture_paths) for m in spec["materials"]]
         self._instances.resize(len(spec["instances"]), self._nothing)
         for index, instance in enumerate(spec["instances"]):
-            self._set_instance(index, instance, materials, mesh_paths)
+            self._set_instance(index, instance, mesh_paths)
+        self._set_materials(spec, mesh_paths, texture_paths)
         self._set_lights(spec["lights"])
-        self._meshes.trim()
-        self._images.trim()
+        for cache in (self._meshes, self._images, self._materials):
+            cache.trim()
 
     def _add_camera(self):
         camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
@@ -82,7 +84,7 @@ class SceneBuilder:
         self._camera.data.dof.use_dof = False
         return was_on
 
-    def _set_instance(self, index, spec, materials, mesh_paths):
+    def _set_instance(self, index, spec, mesh_paths):
         mesh = self._meshes.get(spec["mesh"], mesh_paths)
         if len(spec["materials"]) != len(mesh.materials):
             raise ValueError(f"instance {spec['name']} brings {len(spec['materials'])} materials for "
@@ -91,12 +93,26 @@ class SceneBuilder:
         item.data = mesh
         item.pass_index = spec["id"]
         item.matrix_parent_inverse = _matrix(spec["camera_from_object"])
-        for slot, material in zip(item.material_slots, spec["materials"]):
-            slot.link = "OBJECT"  # the mesh is shared between instances
-            slot.material = materials[material]
         hidden_from = spec["hidden_from"]
         for kind in ("camera", "diffuse", "glossy", "transmission", "shadow"):
             setattr(item, f"visible_{kind}", kind not in hidden_from)
+
+    def _set_materials(self, spec, mesh_paths, texture_paths):
+        """Slots belong to the meshes: one material for all that the instances of a mesh wear there."""
+        looks = [look_of(material) for material in spec["materials"]]
+        worn = collections.defaultdict(set)  # (mesh, slot) -> looks
+        for instance in spec["instances"]:
+            for slot, material in enumerate(instance["materials"]):
+                worn[instance["mesh"], slot].add(looks[material])
+        # By structure first, so that as many frames as can be share a tree.
+        worn = {key: tuple(sorted(some, key=lambda look: ([use for use, _ in look], look)))
+                for key, some in worn.items()}
+        for (mesh, slot), some in worn.items():
+            self._meshes.get(mesh, mesh_paths).materials[slot] = self._materials.get(slot, some, texture_paths)
+        for index, instance in enumerate(spec["instances"]):
+            for slot, material in enumerate(instance["materials"]):
+                set_values(self._instances[index], slot, spec["materials"][material],
+                           worn[instance["mesh"], slot].index(looks[material]))
 
     def _set_lights(self, specs):
         # Objects need some data when they are made, so the data comes first.

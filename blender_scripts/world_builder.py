@@ -9,6 +9,8 @@ class WorldBuilder:
         world = bpy.data.worlds.new("world")
         scene.world = world
         world.use_nodes = True
+        world.cycles.sampling_method = "MANUAL"  # or the map of importance would have the image's size
+        self._world = world
         self._tree = world.node_tree
         self._background = self._tree.nodes["Background"]
         self._rows = []  # of the matrix that turns directions of the camera into those of the map
@@ -22,6 +24,7 @@ class WorldBuilder:
         if "hdri" not in spec:
             self._background.inputs["Color"].default_value = (*spec["color"], 1.0)
             return
+        self._world.cycles.sample_map_resolution = spec["importance_map_px"]
         self._texture.image = self._images.get(spec["hdri"], "environment", image_paths)
         for row, socket in enumerate(self._rows):
             socket.default_value = spec["map_from_camera"][3 * row:3 * row + 3]

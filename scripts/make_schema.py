@@ -157,7 +157,7 @@ def form_of(words):
         return dict(FORMS[words])
     listed = re.findall(r"`([^`]+)`", words)
     if words.startswith("one of "):
-        return {"enum": listed}
+        return {"enum": listed + ([False] if "off" in listed else [])}  # YAML 1.1 reads off as false
     if words.startswith("some of "):
         return {"type": "array", "items": {"enum": listed}}
     if words.startswith("as "):

@@ -9,6 +9,7 @@
 #include "config/determinism_section.h"
 #include "config/image_section.h"
 #include "config/plan_sections.h"
+#include "config/render_section.h"
 #include "config/scene_sections.h"
 #include "config/section_reader.h"
 
@@ -16,39 +17,6 @@ namespace seedframe {
 namespace {
 
 constexpr int kConfigVersion = 1;
-constexpr long long kLargestSide = 16384;  // of an image, pixels
-
-RenderConfig read_render(SectionReader& campaign, Diagnostics& errors) {
-  RenderConfig render;
-  const auto node = campaign.find("render");
-  if (!node) return render;
-  render.place = node->place();
-  SectionReader section(*node, errors);
-  render.width = static_cast<int>(section.integer("width", render.width, 1, kLargestSide));
-  render.height = static_cast<int>(section.integer("height", render.height, 1, kLargestSide));
-  render.samples = static_cast<int>(section.integer("samples", render.samples, 1, 1 << 20));
-  render.max_bounces =
-      static_cast<int>(section.integer("max_bounces", render.max_bounces, 0, 1024));
-  render.filter_width_px = section.positive("filter_width_px", render.filter_width_px);
-  render.clamp_indirect = section.constant("clamp_indirect", render.clamp_indirect);
-  if (render.clamp_indirect < 0.0) {
-    errors.add(node->find("clamp_indirect")->place(), "expected 0 (no limit) or more");
-  }
-  for (const std::string& pass : section.texts("passes")) {
-    if (pass == "depth") {
-      render.depth = true;
-    } else if (pass == "normal") {
-      render.normal = true;
-    } else {
-      errors.add(node->find("passes")->place(),
-                 "unknown pass '" + pass + "'" + did_you_mean(pass, {"depth", "normal"}));
-    }
-  }
-  if (const auto kept = section.find("persistent_data")) render.place = kept->place();
-  render.persistent_data = section.flag("persistent_data", render.persistent_data);
-  section.refuse_other_keys();
-  return render;
-}
 
 LabelSource read_label_source(const ConfigNode& node, Diagnostics& errors) {
   if (node.is_scalar() && node.text() == "geometry") return LabelSource::kTwin;

@@ -62,6 +62,8 @@ struct RenderConfig {
   int width = 640;
   int height = 480;
   int samples = 64;
+  AdaptiveSampling adaptive;
+  Denoise denoise = Denoise::kOff;
   int max_bounces = 6;
   double filter_width_px = 1.5;
   double clamp_indirect = 10.0;
@@ -171,6 +173,7 @@ struct WorldConfig {
   NumberSource strength;
   std::optional<NameSource> hdri;  ///< name of an environment map, multiplied by the colour
   NumberSource rotation_deg;       ///< of the environment map, about z
+  int importance_map_px = 512;     ///< see WorldSpec
   Place place;
 };
 

@@ -134,6 +134,8 @@ WorldConfig read_world(SectionReader& campaign) {
   world.strength = section.number("strength", node->find("hdri") ? 1.0 : 0.1);
   if (const auto hdri = section.find("hdri")) world.hdri = read_name(*hdri, campaign.errors());
   world.rotation_deg = section.number("rotation_deg", 0.0);
+  world.importance_map_px =
+      static_cast<int>(section.integer("importance_map_px", world.importance_map_px, 4, 8192));
   section.refuse_other_keys();
   return world;
 }

@@ -21,6 +21,15 @@ constexpr std::array<KernelRow, 4> kRows = {{{"sse2", "sse2", "CYCLES_CPU_NO_SSE
                                              {"avx", "avx", "CYCLES_CPU_NO_AVX2"},
                                              {"avx2", "avx2", ""}}};
 
+/// jemalloc, which Debian's Blender has, would give its pages back after each frame and be handed
+/// zeroed ones for the next. It keeps what the largest frame had, and no more.
+constexpr const char* kKeepPages = "dirty_decay_ms:-1,muzzy_decay_ms:-1,thp:always";
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
 }  // namespace
 
 Kernels kernels_of(Isa isa) {
@@ -31,11 +40,11 @@ Kernels kernels_of(Isa isa) {
 std::map<std::string, std::string> environment_of(const WorkerConditions& conditions,
                                                   const std::filesystem::path& preload) {
   std::map<std::string, std::string> environment;
-  const char* others = std::getenv("LD_PRELOAD");
-  const bool alone = others == nullptr || *others == '\0';
   if (!preload.empty()) {
-    environment["LD_PRELOAD"] = preload.string() + (alone ? "" : fmt::format(":{}", others));
+    const std::string others = is_set("LD_PRELOAD") ? std::getenv("LD_PRELOAD") : "";
+    environment["LD_PRELOAD"] = preload.string() + (others.empty() ? "" : ":" + others);
   }
+  if (!is_set("MALLOC_CONF")) environment["MALLOC_CONF"] = kKeepPages;
   if (conditions.kernels) {
     environment["SEEDFRAME_EMBREE_ISA"] = conditions.kernels->embree;
     for (const KernelRow& row : kRows) {

@@ -29,8 +29,9 @@ struct WorkerConditions {
   bool persistent_data = false;
 };
 
-/// Variables for the worker: which kernels, and the library to be preloaded that says and pins
-/// Embree's (preload/worker_cpu.cpp).
+/// Variables for the worker: which kernels, the library to be preloaded that says and pins Embree's
+/// (preload/worker_cpu.cpp), and, unless the user has set MALLOC_CONF, an allocator that keeps its
+/// memory from frame to frame.
 std::map<std::string, std::string> environment_of(const WorkerConditions& conditions,
                                                   const std::filesystem::path& preload);
 

@@ -73,6 +73,7 @@ class Compiler {
     compiled_.world.rotation_deg = world.number(config_.world.rotation_deg, "rotation_deg");
     if (config_.world.hdri) {
       compiled_.world.hdri = world.text(*config_.world.hdri, "hdri");
+      compiled_.world.importance_map_px = config_.world.importance_map_px;
       world.refuse_unknown(*compiled_.world.hdri, materials_.hdris(), materials_,
                            &MaterialLibrary::no_hdri);
     }

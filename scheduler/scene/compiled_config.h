@@ -88,6 +88,7 @@ struct CompiledWorld {
   ColorDraw color;
   NumberDraw strength, rotation_deg;
   std::optional<NameDraw> hdri;
+  int importance_map_px = 0;
 };
 
 struct CompiledGround {

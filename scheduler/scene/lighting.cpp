@@ -101,6 +101,7 @@ void set_world(const CompiledWorld& world, const Affine& world_from_camera,
   spec.strength = not_negative(world.strength, "the world's strength", context);
   if (!world.hdri) return;
   spec.hdri = materials.hdri(*world.hdri, draft, context);
+  spec.importance_map_px = world.importance_map_px;
   const double angle = world.rotation_deg.evaluate(context);
   const Eigen::Matrix3d map_from_world =
       rotation_and_scale({0.0, 0.0, -angle}, Eigen::Vector3d::Ones());

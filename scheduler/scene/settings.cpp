@@ -12,6 +12,8 @@ CampaignSettings settings_of(const CampaignConfig& config) {
   settings.render.width = config.render.width;
   settings.render.height = config.render.height;
   settings.render.samples = config.render.samples;
+  settings.render.adaptive = config.render.adaptive;
+  settings.render.denoise = config.render.denoise;
   settings.render.max_bounces = config.render.max_bounces;
   settings.render.filter_width_px = config.render.filter_width_px;
   settings.render.clamp_indirect = config.render.clamp_indirect;

@@ -171,7 +171,15 @@ void write_material(Writer& out, const MaterialSpec& material) {
 }
 
 void write_render(Writer& out, const RenderSettings& render) {
+  if (render.adaptive.threshold > 0.0) {
+    out.key("adaptive");
+    out.open('{');
+    out.field("min_samples", static_cast<double>(render.adaptive.min_samples));
+    out.field("threshold", render.adaptive.threshold);
+    out.close('}');
+  }
   out.field("clamp_indirect", render.clamp_indirect);
+  out.field("denoise", std::string_view(kDenoiseNames[static_cast<std::size_t>(render.denoise)]));
   out.field("depth", render.depth);
   out.field("filter_width_px", render.filter_width_px);
   out.field("height", static_cast<double>(render.height));
@@ -186,6 +194,7 @@ void write_world(Writer& out, const WorldSpec& world) {
   out.numbers("color", world.color);
   if (!world.hdri.empty()) {
     out.field("hdri", std::string_view(world.hdri));
+    out.field("importance_map_px", static_cast<double>(world.importance_map_px));
     out.matrix("map_from_camera", world.map_from_camera);
   }
   out.field("strength", world.strength);

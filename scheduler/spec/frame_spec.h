@@ -16,7 +16,7 @@
 
 namespace seedframe {
 
-inline constexpr int kFrameSpecVersion = 4;
+inline constexpr int kFrameSpecVersion = 5;
 
 /// Linear RGB, Rec.709 primaries.
 using Rgb = std::array<double, 3>;
@@ -24,16 +24,32 @@ using Rgb = std::array<double, 3>;
 /// the viewer; metres). Includes scale.
 using Affine = Eigen::Transform<double, 3, Eigen::Affine>;
 
+/// A pixel is finished once its error is estimated to be below the threshold (Cycles' measure), but
+/// not before min_samples. Threshold 0: every pixel has all samples.
+struct AdaptiveSampling {
+  double threshold = 0.0;
+  int min_samples = 0;
+
+  bool operator==(const AdaptiveSampling&) const = default;
+};
+
+/// Open Image Denoise over the picture, guided by albedo and normal, which are filtered first
+/// (kOidn) or taken as they are sampled (kOidnFast). Never over ids, depth or normals.
+enum class Denoise { kOff, kOidn, kOidnFast };
+inline constexpr std::array<const char*, 3> kDenoiseNames = {"off", "oidn", "oidn_fast"};
+
 struct RenderSettings {
-  int width = 0;   ///< pixels
-  int height = 0;  ///< pixels
-  int samples = 0;
+  int width = 0;           ///< pixels
+  int height = 0;          ///< pixels
+  int samples = 0;         ///< of a pixel; with adaptive sampling at most
   std::uint32_t seed = 0;  ///< of Cycles, 31 bits
   int max_bounces = 0;
   double filter_width_px = 1.5;
   double clamp_indirect = 0.0;  ///< scene-linear, 0 for none
   bool depth = false;           ///< ask for the Depth pass
   bool normal = false;          ///< ask for the Normal pass
+  AdaptiveSampling adaptive;
+  Denoise denoise = Denoise::kOff;
 };
 
 /// A camera at the origin, looking down -z, y up.
@@ -103,6 +119,9 @@ struct WorldSpec {
   Rgb color{};
   double strength = 0.0;
   std::string hdri;  ///< SHA-256 of an image file, or empty
+  /// Width of the map of brightness that Cycles makes in each frame, to aim at what is bright: its
+  /// time and its noise depend on it, what is expected of the picture does not; with hdri only.
+  int importance_map_px = 0;
   /// From directions in the camera's frame to those of the environment map; with hdri only.
   Eigen::Matrix3d map_from_camera = Eigen::Matrix3d::Identity();
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace seedframe {
 namespace {
 
@@ -16,17 +18,39 @@ Affine matrix_from_json(const Json& numbers) {
   return transform;
 }
 
-LightKind light_kind(const std::string& name) {
-  const auto found = std::find(kLightKindNames.begin(), kLightKindNames.end(), name);
-  if (found == kLightKindNames.end()) {
-    throw Json::other_error::create(501, "unknown kind of light '" + name + "'", nullptr);
+/// The value of an enum whose names these are, in its order.
+template <class Enum, class Names>
+Enum named(const Json& json, const Names& names, const char* what) {
+  const auto name = json.get<std::string>();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw Json::other_error::create(501, fmt::format("unknown {} '{}'", what, name), nullptr);
   }
-  return static_cast<LightKind>(found - kLightKindNames.begin());
+  return static_cast<Enum>(found - names.begin());
+}
+
+RenderSettings render_from_json(const Json& json) {
+  RenderSettings render;
+  render.width = integer_of<int>(json.at("width"));
+  render.height = integer_of<int>(json.at("height"));
+  render.samples = integer_of<int>(json.at("samples"));
+  if (json.contains("adaptive")) {
+    json.at("adaptive").at("threshold").get_to(render.adaptive.threshold);
+    render.adaptive.min_samples = integer_of<int>(json.at("adaptive").at("min_samples"));
+  }
+  render.denoise = named<Denoise>(json.at("denoise"), kDenoiseNames, "denoiser");
+  render.seed = integer_of<std::uint32_t>(json.at("seed"));
+  render.max_bounces = integer_of<int>(json.at("max_bounces"));
+  json.at("filter_width_px").get_to(render.filter_width_px);
+  json.at("clamp_indirect").get_to(render.clamp_indirect);
+  json.at("depth").get_to(render.depth);
+  json.at("normal").get_to(render.normal);
+  return render;
 }
 
 LightSpec light_from_json(const Json& json) {
   LightSpec light;
-  light.kind = light_kind(json.at("kind").get<std::string>());
+  light.kind = named<LightKind>(json.at("kind"), kLightKindNames, "kind of light");
   light.camera_from_light = matrix_from_json(json.at("camera_from_light"));
   json.at("color").get_to(light.color);
   json.at("power").get_to(light.power);
@@ -81,16 +105,7 @@ InstanceSpec instance_from_json(const Json& json) {
 
 FrameSpec read(const Json& json) {
   FrameSpec spec;
-  const Json& render = json.at("render");
-  spec.render.width = integer_of<int>(render.at("width"));
-  spec.render.height = integer_of<int>(render.at("height"));
-  spec.render.samples = integer_of<int>(render.at("samples"));
-  spec.render.seed = integer_of<std::uint32_t>(render.at("seed"));
-  spec.render.max_bounces = integer_of<int>(render.at("max_bounces"));
-  render.at("filter_width_px").get_to(spec.render.filter_width_px);
-  render.at("clamp_indirect").get_to(spec.render.clamp_indirect);
-  render.at("depth").get_to(spec.render.depth);
-  render.at("normal").get_to(spec.render.normal);
+  spec.render = render_from_json(json.at("render"));
   const Json& camera = json.at("camera");
   camera.at("focal_px").get_to(spec.camera.focal_px);
   camera.at("center_px").get_to(spec.camera.center_px);
@@ -103,6 +118,7 @@ FrameSpec read(const Json& json) {
   world.at("strength").get_to(spec.world.strength);
   spec.world.hdri = world.value("hdri", std::string());
   if (!spec.world.hdri.empty()) {
+    spec.world.importance_map_px = integer_of<int>(world.at("importance_map_px"));
     const Json& numbers = world.at("map_from_camera");
     for (std::size_t i = 0; i < 9; ++i) {
       spec.world.map_from_camera(static_cast<int>(i / 3), static_cast<int>(i % 3)) =

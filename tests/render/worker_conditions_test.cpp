@@ -34,14 +34,14 @@ TEST(WorkerConditions, APinNamesBothKernels) {
   EXPECT_THAT(sse41, Contains(Pair("SEEDFRAME_EMBREE_ISA", "sse4.2")));
   const auto best = environment_of(pinned_to(Isa::kAvx2), "/lib/worker_cpu.so");
   EXPECT_THAT(best, Contains(Pair("SEEDFRAME_EMBREE_ISA", "avx2"))) << "and no AVX-512";
-  EXPECT_EQ(best.size(), 2u);
+  EXPECT_EQ(best.size(), 3u);
 }
 
 TEST(WorkerConditions, WithoutAPinNothingIsChosen) {
   const auto environment = environment_of({}, "/lib/worker_cpu.so");
   EXPECT_THAT(environment, Contains(Pair("LD_PRELOAD", "/lib/worker_cpu.so")));
   EXPECT_THAT(environment, Not(Contains(Key("SEEDFRAME_EMBREE_ISA"))));
-  EXPECT_TRUE(environment_of({}, {}).empty());
+  EXPECT_EQ(environment_of({}, {}).size(), 1u) << "the allocator's settings";
 }
 
 TEST(WorkerConditions, WhatOthersPreloadStaysBehindOurs) {
@@ -49,6 +49,13 @@ TEST(WorkerConditions, WhatOthersPreloadStaysBehindOurs) {
   const auto environment = environment_of({}, "/lib/worker_cpu.so");
   unsetenv("LD_PRELOAD");
   EXPECT_EQ(environment.at("LD_PRELOAD"), "/lib/worker_cpu.so:/lib/other.so");
+}
+
+TEST(WorkerConditions, TheAllocatorKeepsItsMemoryUnlessTheUserSetsItOtherwise) {
+  EXPECT_THAT(environment_of({}, {}).at("MALLOC_CONF"), HasSubstr("dirty_decay_ms:-1"));
+  ASSERT_EQ(setenv("MALLOC_CONF", "narenas:1", 1), 0);
+  EXPECT_TRUE(environment_of({}, {}).empty());
+  unsetenv("MALLOC_CONF");
 }
 
 TEST(WorkerConditions, AWorkerThatCannotKeepThemIsRefused) {

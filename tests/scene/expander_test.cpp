@@ -96,9 +96,9 @@ lights:
 )");
   ASSERT_TRUE(expander) << expander.error().message;
   EXPECT_EQ(expander->expand(0)->id,
-            "11c8f02c60e380b1c5592d0af8ae4cafdcd29c3e72fef9b0d420a75ea35c320a");
+            "6be13fce7416db2e5f4b97eb61255e0830ffbf67dd59baa7db011c0f93b3917c");
   EXPECT_EQ(expander->expand(5)->id,
-            "5ff1ac9dcd3c49db6dd22bfd0a297b3f584c064c84e5e6d0ce70c6ba058ddaa2");
+            "1eaf6d1b806f409c5d845bc3a5b809cf580d69ff6e6c06b59f38c020d09ad8dc");
 }
 
 TEST(SceneExpander, FirstDrawsAreWhatTheyHaveAlwaysBeen) {
@@ -226,9 +226,21 @@ TEST(SceneExpander, FrameSpecsSurviveTheirJson) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(frame_id(*read), frame->id);
   Json newer = to_json(frame->spec);
-  newer["version"] = 5;
-  EXPECT_THAT(frame_spec_from_json(newer, "frame.json").error().message,
-              HasSubstr("frame.json is a frame spec of version 5"));
+  newer["version"] = kFrameSpecVersion + 1;
+  EXPECT_THAT(
+      frame_spec_from_json(newer, "frame.json").error().message,
+      HasSubstr(fmt::format("frame.json is a frame spec of version {}", kFrameSpecVersion + 1)));
+  FrameSpec all = frame->spec;
+  all.world.hdri = "ab";
+  all.world.importance_map_px = 77;
+  all.render.adaptive = {0.05, 8};
+  all.render.denoise = Denoise::kOidnFast;
+  const auto all_read = frame_spec_from_json(to_json(all), "t");
+  ASSERT_TRUE(all_read) << all_read.error().message;
+  EXPECT_EQ(all_read->render.adaptive, all.render.adaptive);
+  EXPECT_EQ(all_read->render.denoise, all.render.denoise);
+  EXPECT_EQ(all_read->world.importance_map_px, 77);
+  EXPECT_EQ(frame_id(*all_read), frame_id(all));
   Json damaged = to_json(frame->spec);
   damaged.erase("camera");
   EXPECT_FALSE(frame_spec_from_json(damaged, "frame.json"));

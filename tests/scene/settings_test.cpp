@@ -19,7 +19,8 @@ scenes: 5
 frames_per_scene: 3
 categories: [gear, hex_nut]
 render: {width: 321, height: 123, samples: 7, max_bounces: 2, filter_width_px: 1.25,
-         clamp_indirect: 4, passes: [depth, normal], persistent_data: true}
+         clamp_indirect: 4, passes: [depth, normal], persistent_data: true,
+         adaptive: {threshold: 0.1, min_samples: 5}, denoise: oidn_fast}
 determinism: none
 image: {display: XYZ, view: Raw, look: High, exposure_stops: 1, gamma: 2, ocio_config: other.ocio,
         format: webp}
@@ -39,6 +40,8 @@ camera: {distance_m: 1}
   EXPECT_EQ(settings.render.height, 123);
   EXPECT_EQ(settings.render.samples, 7);
   EXPECT_EQ(settings.render.max_bounces, 2);
+  EXPECT_EQ(settings.render.adaptive, (AdaptiveSampling{0.1, 5}));
+  EXPECT_EQ(settings.render.denoise, Denoise::kOidnFast);
   EXPECT_EQ(settings.render.filter_width_px, 1.25);
   EXPECT_EQ(settings.render.clamp_indirect, 4.0);
   EXPECT_TRUE(settings.render.depth);

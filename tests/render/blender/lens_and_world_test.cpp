@@ -128,6 +128,7 @@ TEST_F(RealBlender, TheMiddleOfAnEnvironmentMapIsAlongItsXAndItsLeftHalfIsAlongY
   specs[0].world.hdri = map;
   specs[0].world.strength = 0.5;
   // Camera: -z to the map's +y, up to its +z.
+  specs[0].world.importance_map_px = 256;
   specs[0].world.map_from_camera << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   specs[1] = specs[0];
   specs[1].world.map_from_camera << -1, 0, 0, 0, 0, 1, 0, 1, 0;  // -z to -y

@@ -135,7 +135,7 @@ class RealBlender : public testing::Test, public RenderClient {
   /// One white ball of radius 1 at 4 m, lit evenly by the world alone.
   FrameSpec ball() const {
     FrameSpec spec;
-    spec.render = {48, 36, 4, 1, 2, 1.5, 0.0, true, false};
+    spec.render = {48, 36, 4, 1, 2, 1.5, 0.0, true, false, {}, Denoise::kOff};
     spec.camera = {{60.0, 60.0}, {23.5, 17.5}, 0.01, 100.0};
     spec.world.color = {1, 1, 1};
     spec.world.strength = 1.0;
@@ -259,6 +259,7 @@ inline FrameSpec RealBlender::varied(std::int64_t frame) const {
   spec.world.strength = draw(0, 1);
   if (pick(2) == 1 && !textures.empty()) {
     spec.world.hdri = textures.begin()->first;
+    spec.world.importance_map_px = 64;
     spec.world.map_from_camera =
         Eigen::AngleAxisd(draw(0, 3), Eigen::Vector3d::UnitX()).toRotationMatrix();
   }

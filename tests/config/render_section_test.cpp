@@ -1,0 +1,56 @@
+// The section `render`: what it is without a word, and what is refused.
+
+#include "config/render_section.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/message_of.h"
+
+namespace seedframe {
+namespace {
+
+using ::testing::HasSubstr;
+
+Result<CampaignConfig> read_with(const std::string& render) {
+  return read_campaign_config("seedframe: 1\ncamera: {distance_m: 1}\nrender: {" + render + "}\n",
+                              "r.yaml");
+}
+
+std::string refusal_of(const std::string& render) {
+  const auto config = read_with(render);
+  return message_of(config);
+}
+
+TEST(RenderSection, RendersEverySampleOfEveryPixelUnlessSaidOtherwise) {
+  const auto config = read_with("samples: 9");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->render.adaptive, AdaptiveSampling());
+  EXPECT_EQ(config->render.denoise, Denoise::kOff);
+}
+
+TEST(RenderSection, AdaptiveSamplingNamesItsThresholdAndItsMinimum) {
+  const auto config = read_with("samples: 64, adaptive: {threshold: 0.05, min_samples: 64}");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->render.adaptive, (AdaptiveSampling{0.05, 64}));
+  EXPECT_THAT(refusal_of("adaptive: {threshold: 0.05}"), HasSubstr("min_samples"));
+  EXPECT_THAT(refusal_of("adaptive: {min_samples: 4}"), HasSubstr("threshold"));
+  EXPECT_THAT(refusal_of("adaptive: {threshold: 0, min_samples: 4}"),
+              HasSubstr("render.adaptive.threshold"));
+  EXPECT_THAT(refusal_of("adaptive: {threshold: 1, min_samples: 0}"),
+              HasSubstr("render.adaptive.min_samples"));
+  EXPECT_THAT(refusal_of("samples: 8, adaptive: {threshold: 0.1, min_samples: 16}"),
+              HasSubstr("render.adaptive: min_samples of 16 are more than render.samples, 8"));
+}
+
+TEST(RenderSection, ADenoiserIsOneOfThree) {
+  EXPECT_EQ(read_with("denoise: oidn")->render.denoise, Denoise::kOidn);
+  EXPECT_EQ(read_with("denoise: oidn_fast")->render.denoise, Denoise::kOidnFast);
+  EXPECT_EQ(read_with("denoise: off")->render.denoise, Denoise::kOff);
+  EXPECT_THAT(refusal_of("denoise: oidn_fats"),
+              HasSubstr("render.denoise: expected one of off, oidn, oidn_fast, found 'oidn_fats' "
+                        "(did you mean 'oidn_fast'?)"));
+}
+
+}  // namespace
+}  // namespace seedframe
