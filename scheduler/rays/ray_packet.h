@@ -1,4 +1,4 @@
-// Sixteen neighbouring pixels' rays at a time; included by ray_scene.cpp only.
+// Eight neighbouring pixels' rays at a time: as many as AVX2 has lanes. Included by sources only.
 #pragma once
 
 #include <array>
@@ -6,48 +6,58 @@
 
 #include <embree3/rtcore.h>
 
-#include "rays/ray_scene.h"
+#include "rays/pixel_camera.h"
 
 namespace seedframe {
 
-/// Four columns by four rows, `step` pixels apart. Lane 4j + i is column i of row j.
+/// Four columns by two rows, or any eight pixels. Lane 4j + i is column i of row j.
 struct RayPacket {
-  static constexpr int kSide = 4;
-  static constexpr int kLanes = kSide * kSide;
+  static constexpr int kColumns = 4;
+  static constexpr int kRows = 2;
+  static constexpr std::size_t kLanes = kColumns * kRows;
+  static constexpr unsigned kEveryInstance = 0xffffffffU;
 
-  alignas(64) std::array<std::int32_t, kLanes> wanted;  ///< -1: to be traced; 0: not
-  RTCRayHit16 rays;
+  alignas(32) std::array<std::int32_t, kLanes> wanted{};  ///< -1: to be traced; 0: not
+  RTCRayHit8 rays{};
 
-  /// Lanes beyond `right` or `bottom` are not wanted. Returns whether any is.
-  bool aim(const PixelCamera& camera, int x, int y, int step, int right, int bottom) {
-    bool any = false;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const int column = x + (lane % kSide) * step;
-      const int row = y + (lane / kSide) * step;
-      const auto l = static_cast<std::size_t>(lane);
-      wanted[l] = column < right && row < bottom ? -1 : 0;
-      any = any || wanted[l] != 0;
+  explicit RayPacket(const PixelCamera& camera) : far_(static_cast<float>(camera.clip_end_m)) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
       // z of the direction is -1, so the ray's parameter is the depth, and the clips are its ends.
-      rays.ray.dir_x[l] = static_cast<float>((column - camera.center_px[0]) / camera.focal_px[0]);
-      rays.ray.dir_y[l] = static_cast<float>((camera.center_px[1] - row) / camera.focal_px[1]);
-      rays.ray.dir_z[l] = -1.0f;
-      rays.ray.org_x[l] = rays.ray.org_y[l] = rays.ray.org_z[l] = 0.0f;
-      rays.ray.tnear[l] = static_cast<float>(camera.clip_start_m);
-      rays.ray.tfar[l] = static_cast<float>(camera.clip_end_m);
-      rays.ray.time[l] = 0.0f;
-      rays.ray.mask[l] = 0xffffffffu;
-      rays.ray.id[l] = rays.ray.flags[l] = 0;
-      rays.hit.geomID[l] = RTC_INVALID_GEOMETRY_ID;
-      rays.hit.instID[0][l] = RTC_INVALID_GEOMETRY_ID;
+      rays.ray.dir_z[lane] = -1.0F;
+      rays.ray.tnear[lane] = static_cast<float>(camera.clip_start_m);
+      rays.ray.mask[lane] = kEveryInstance;
     }
-    return any;
+  }
+
+  void aim_lane(std::size_t lane, float ray_x, float ray_y) {
+    wanted[lane] = -1;
+    rays.ray.dir_x[lane] = ray_x;
+    rays.ray.dir_y[lane] = ray_y;
+  }
+
+  /// At pixels `step` apart. Lanes beyond `right` or `bottom` are not wanted.
+  void aim(const PixelRays& pixels, int x, int y, int step, int right, int bottom) {
+    for (int j = 0; j < kRows; ++j) {
+      const int row = y + j * step;
+      for (int i = 0; i < kColumns; ++i) {
+        const int column = x + i * step;
+        const auto lane = static_cast<std::size_t>(j * kColumns + i);
+        wanted[lane] = 0;
+        if (column < right && row < bottom) aim_lane(lane, pixels.x(column), pixels.y(row));
+      }
+    }
   }
 
   void find_first_hits(RTCScene scene) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      rays.ray.tfar[lane] = far_;
+      rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+      rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect16(wanted.data(), scene, &context, &rays);
+    rtcIntersect8(wanted.data(), scene, &context, &rays);
   }
 
   /// After find_first_hits: the instance's index, or -1.
@@ -56,16 +66,24 @@ struct RayPacket {
     return static_cast<int>(rays.hit.instID[0][lane]);
   }
 
-  /// Finds out what hits anything at all, which is cheaper, by the same arithmetic.
-  void find_any_hits(RTCScene scene) {
+  /// Finds out what hits anything at all, which is cheaper, by the same arithmetic. Only instances
+  /// that have one of the bits of `mask` can be hit.
+  void find_any_hits(RTCScene scene, unsigned mask = kEveryInstance) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      rays.ray.tfar[lane] = far_;
+      rays.ray.mask[lane] = mask;
+    }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcOccluded16(wanted.data(), scene, &context, &rays.ray);
+    rtcOccluded8(wanted.data(), scene, &context, &rays.ray);
   }
 
   /// After find_any_hits.
-  bool hits(std::size_t lane) const { return wanted[lane] != 0 && rays.ray.tfar[lane] < 0.0f; }
+  bool hits(std::size_t lane) const { return wanted[lane] != 0 && rays.ray.tfar[lane] < 0.0F; }
+
+ private:
+  float far_;
 };
 
 }  // namespace seedframe

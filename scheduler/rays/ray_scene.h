@@ -9,22 +9,10 @@
 #include <vector>
 
 #include "base/pixel_rect.h"
+#include "rays/pixel_camera.h"
 #include "rays/ray_mesh.h"
 
 namespace seedframe {
-
-/// A pinhole at the origin that looks down -z with y up; pixel centres are whole numbers, y down.
-struct PixelCamera {
-  int width = 0;
-  int height = 0;
-  std::array<double, 2> focal_px{};
-  std::array<double, 2> center_px{};
-  double clip_start_m = 0.0;
-  double clip_end_m = 0.0;
-};
-
-/// The image and as much again on every side: where silhouettes are looked for.
-PixelRect enlarged_canvas(const PixelCamera& camera);
 
 struct RayInstance {
   std::shared_ptr<const RayMesh> mesh;
@@ -98,7 +86,8 @@ class RayScene {
   RayImage trace(const TraceOptions& options) const;
 
   /// Contains every pixel of the image that `image` gives to the instance and that is in `within`
-  /// or near the instance. Not for one instance from several threads at once.
+  /// or near the instance. With the depth of `image`, which must be as trace() gave it, only what
+  /// could be hidden is traced. Not for one instance from several threads at once.
   Silhouette silhouette(std::size_t instance, const RayImage& image,
                         const PixelRect& within = {}) const;
 

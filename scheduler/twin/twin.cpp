@@ -33,7 +33,7 @@ PixelCamera pixel_camera(const FrameSpec& spec) {
           spec.camera.center_px, spec.camera.clip_start_m, spec.camera.clip_end_m};
 }
 
-Twin::Twin(RayScene scene, RayImage image, std::vector<int> ids)
+Twin::Twin(RayScene scene, RayImage image, std::vector<int> ids, bool with_depth)
     : instance_ids(image.width, image.height),
       scene_(std::move(scene)),
       image_(std::move(image)),
@@ -43,7 +43,7 @@ Twin::Twin(RayScene scene, RayImage image, std::vector<int> ids)
       [&](std::int32_t hit) {
         return static_cast<std::uint16_t>(hit < 0 ? 0 : ids_[static_cast<std::size_t>(hit)]);
       });
-  if (!image_.depth.empty()) depth = depth_image(image_);
+  if (with_depth) depth = depth_image(image_);
   if (!image_.normals.empty()) normal = normal_image(image_);
 }
 
@@ -76,7 +76,7 @@ std::vector<Silhouette> Twin::silhouettes(const Image<std::uint16_t>& visible_id
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     if (ids_[i] != 0) index_of_id[ids_[i]] = static_cast<std::int32_t>(i);
   }
-  RayImage visible{visible_ids.width, visible_ids.height, {}, {}, {}};
+  RayImage visible{visible_ids.width, visible_ids.height, {}, image_.depth, {}};
   std::vector<PixelRect> extents(ids_.size());
   visible.instance.reserve(visible_ids.values.size());
   for (int y = 0; y < visible_ids.height; ++y) {
@@ -110,10 +110,9 @@ Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers
     trim();
     RayScene scene(pixel_camera(spec), std::move(instances));
     const bool asked = passes == Passes::kAsked;
-    RayImage image = scene.trace({.depth = asked && spec.render.depth,
-                                  .normals = asked && spec.render.normal,
-                                  .threads = threads_});
-    return Twin(std::move(scene), std::move(image), std::move(ids));
+    RayImage image =
+        scene.trace({.depth = true, .normals = asked && spec.render.normal, .threads = threads_});
+    return Twin(std::move(scene), std::move(image), std::move(ids), asked && spec.render.depth);
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::kExhausted,
                 "there is not enough memory to trace a frame of {} instances, {}x{} pixels",

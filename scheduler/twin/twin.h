@@ -45,7 +45,7 @@ class Twin {
 
  private:
   friend class TwinTracer;
-  Twin(RayScene scene, RayImage image, std::vector<int> ids);
+  Twin(RayScene scene, RayImage image, std::vector<int> ids, bool with_depth);
 
   RayScene scene_;
   RayImage image_;

@@ -1,0 +1,83 @@
+#include "rays/scene_trees.h"
+
+#include <array>
+
+namespace seedframe {
+namespace {
+
+constexpr unsigned kEveryRay = 0xffffffffU;
+constexpr unsigned kSharedBit = 1U << 31U;
+
+bool overlap(const PixelRect& a, const PixelRect& b) {
+  return a.x < b.end_x() && b.x < a.end_x() && a.y < b.end_y() && b.y < a.end_y();
+}
+
+/// Rays of other masks pass through.
+void attach(RTCScene scene, const RayInstance& instance, std::size_t index, unsigned mask) {
+  const RTCGeometry geometry = rtcNewGeometry(embree_device(), RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, instance.mesh->tree().scene);
+  std::array<float, 12> columns{};
+  std::size_t next = 0;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      columns[next++] = static_cast<float>(instance.camera_from_object(row, column));
+    }
+  }
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+  rtcSetGeometryMask(geometry, mask);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(index));
+  rtcReleaseGeometry(geometry);
+}
+
+}  // namespace
+
+RayScene::Scene::Scene(const PixelCamera& pixel_camera, std::vector<RayInstance> seen_and_unseen)
+    : camera(pixel_camera),
+      pixels(pixel_camera),
+      instances(std::move(seen_and_unseen)),
+      alone(instances.size(), nullptr) {
+  boxes.reserve(instances.size());
+  for (const RayInstance& instance : instances) {
+    boxes.emplace_back(instance.mesh->box(), instance.camera_from_object, camera);
+  }
+  choose_masks();
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].seen) attach(all, instances[i], i, masks[i]);
+  }
+  commit_scene(all);
+}
+
+RayScene::Scene::~Scene() {
+  rtcReleaseScene(all);
+  for (const RTCScene scene : alone) {
+    if (scene != nullptr) rtcReleaseScene(scene);
+  }
+}
+
+void RayScene::Scene::choose_masks() {
+  masks.assign(instances.size(), 0);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (!instances[i].seen) continue;
+    unsigned taken = kSharedBit;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (overlap(boxes[i].rect(), boxes[j].rect())) taken |= masks[j];
+    }
+    const unsigned left = ~taken;
+    masks[i] = left == 0 ? kSharedBit : left & (~left + 1);  // the lowest bit
+  }
+}
+
+bool RayScene::Scene::has_own_mask(std::size_t index) const { return masks[index] != kSharedBit; }
+
+RTCScene RayScene::Scene::only(std::size_t index) const {
+  RTCScene& scene = alone[index];
+  if (scene == nullptr) {
+    scene = new_embree_scene();
+    attach(scene, instances[index], index, kEveryRay);
+    commit_scene(scene);
+  }
+  return scene;
+}
+
+}  // namespace seedframe
