@@ -37,11 +37,11 @@ struct RayPacket {
 
   /// At pixels `step` apart. Lanes beyond `right` or `bottom` are not wanted.
   void aim(const PixelRays& pixels, int x, int y, int step, int right, int bottom) {
+    std::size_t lane = 0;
     for (int j = 0; j < kRows; ++j) {
       const int row = y + j * step;
-      for (int i = 0; i < kColumns; ++i) {
+      for (int i = 0; i < kColumns; ++i, ++lane) {
         const int column = x + i * step;
-        const auto lane = static_cast<std::size_t>(j * kColumns + i);
         wanted[lane] = 0;
         if (column < right && row < bottom) aim_lane(lane, pixels.x(column), pixels.y(row));
       }
