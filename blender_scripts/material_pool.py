@@ -1,10 +1,13 @@
 """Materials of the frame spec as node trees that all instances of a mesh share.
 
 Cycles shares a mesh between objects only if none of them has materials of its own. So what differs
-between instances is in custom properties of the objects, which Attribute nodes read: the values, and
-which of several sets of images an instance wears (its look). Building a tree costs milliseconds, so
-trees are kept by their shape, and each frame sets the images of those that it uses.
+between the instances of a mesh is in custom properties of the objects, which Attribute nodes read: the
+values that vary, and which of several sets of images an instance wears (its look). What does not vary
+is in the nodes, where it costs Cycles nothing. Building a tree costs milliseconds, so trees are kept by
+their shape, and each frame sets the values and images of those that it uses.
 """
+
+import collections
 
 import bpy
 
@@ -27,82 +30,139 @@ _SCALARS = {
 }
 
 
-def look_of(spec):
-    """What of a material is in the tree: its images, sorted by their use."""
+class MaterialPool:
+    def __init__(self, images):
+        self._images = images
+        self._trees = BoundedCache(MAX_LOOKS, lambda tree: bpy.data.materials.remove(tree.material))
+        self._used = collections.Counter()  # shape -> how many trees of it the present frame uses
+
+    def next_frame(self):
+        self._trees.next_frame()
+        self._used.clear()
+
+    def trim(self):
+        self._trees.trim()
+
+    def get(self, slot, worn, paths):
+        """A Wardrobe of these materials of the frame spec, for a slot of a mesh."""
+        # By structure first, so that as many frames as can be share a tree.
+        looks = sorted({_look_of(spec) for spec in worn}, key=lambda look: (_uses(look), look))
+        varying = tuple(name for name in ("base_color", *_SCALARS, "texture_repeat")
+                        if any(spec[name] != worn[0][name] for spec in worn))
+        shape = (slot, tuple(_uses(look) for look in looks), varying)
+        number = self._used[shape]
+        self._used[shape] += 1
+        tree = self._trees.get((shape, number), lambda: (_Tree(*shape), len(looks)))
+        tree.set_constants(worn[0])
+        tree.set_images(looks, self._images, paths)
+        return Wardrobe(tree, looks)
+
+
+class Wardrobe:
+    """The one material of a slot, and how an object wears one of the frame spec's by it."""
+
+    def __init__(self, tree, looks):
+        self.material = tree.material
+        self._properties = tree.properties
+        self._looks = looks
+
+    def dress(self, item, spec):
+        for name, values in self._properties.items():
+            item[name] = [self._value(spec, value) for value in values]
+
+    def _value(self, spec, value):
+        name, axis = value
+        if name == "look":
+            return float(self._looks.index(_look_of(spec)))
+        return spec[name] if axis is None else spec[name][axis]
+
+
+def _look_of(spec):
+    """What of a material is in the tree alone: its images, sorted by their use."""
     unknown = set(spec["textures"]) - set(TEXTURES)
     if unknown:
         raise ValueError(f"unknown texture {sorted(unknown)}; there are {TEXTURES}")
     return tuple(sorted(spec["textures"].items()))
 
 
-def set_values(item, slot, spec, look_index):
-    """What of a material is in the object, for _Values to read."""
-    red, green, blue = spec["base_color"]
-    first, second, third = _property_names(slot)
-    item[first] = (red, green, blue, spec["metallic"])
-    item[second] = (spec["roughness"], spec["specular"], spec["transmission"], spec["ior"])
-    item[third] = (spec["clearcoat"], spec["texture_repeat"], float(look_index), 0.0)
-
-
-def _property_names(slot):
-    return f"material{slot}.color", f"material{slot}.surface", f"material{slot}.look"
-
-
-class MaterialPool:
-    def __init__(self, images):
-        self._images = images
-        self._trees = BoundedCache(MAX_LOOKS, lambda tree: bpy.data.materials.remove(tree.material))
-        self._materials = {}  # (slot, looks) -> material of the present frame
-        self._used = {}  # shape -> how many trees of it the present frame uses
-
-    def next_frame(self):
-        self._trees.next_frame()
-        self._materials.clear()
-        self._used.clear()
-
-    def trim(self):
-        self._trees.trim()
-
-    def get(self, slot, looks, paths):
-        """A material for a slot of a mesh whose instances wear these looks (sorted, each once)."""
-        key = (slot, looks)
-        if key not in self._materials:
-            shape = (slot, tuple(tuple(use for use, _ in look) for look in looks))
-            number = self._used.get(shape, 0)
-            self._used[shape] = number + 1
-            tree = self._trees.get((shape, number), lambda: (_Tree(*shape), len(looks)))
-            tree.set_images(looks, self._images, paths)
-            self._materials[key] = tree.material
-        return self._materials[key]
+def _uses(look):
+    return tuple(use for use, _ in look)
 
 
 class _Tree:
     """One material: a Principled shader for each look, and a choice between them."""
 
-    def __init__(self, slot, structures):
+    def __init__(self, slot, structures, varying):
         self.material = bpy.data.materials.new(f"material{slot}")
         self.material.use_nodes = True
         self._nodes = self.material.node_tree.nodes
         self._links = self.material.node_tree.links
         self._nodes.clear()
-        self._values = _Values(self, slot)
+        self.properties = {}  # of an object: name -> four times which value
+        self._varying = {}  # value -> the socket that carries it
+        self._constants = collections.defaultdict(list)  # value -> sockets to be set
+        self._add_attributes(slot, varying + (("look",) if len(structures) > 1 else ()))
+        self._uv = self._add_uv() if any(structures) else None
         self._textures = []  # for each look: use -> node
         shaders = [self._add_look(structure) for structure in structures]
-        output = self.add("ShaderNodeOutputMaterial")
-        self.link(self._choice(shaders, 0), output.inputs["Surface"])
+        self._link(self._choice(shaders, 0), self._add("ShaderNodeOutputMaterial").inputs["Surface"])
+
+    def set_constants(self, spec):
+        for name, sockets in self._constants.items():
+            value = spec[name]
+            for socket in sockets:
+                if socket.type == "RGBA":
+                    socket.default_value = (*value, 1.0)
+                else:
+                    socket.default_value = value
 
     def set_images(self, looks, images, paths):
         for look, nodes in zip(looks, self._textures):
             for use, sha256 in look:
-                image = images.get(sha256, "color" if use == "color" else "data", paths)
-                if nodes[use].image != image:
-                    nodes[use].image = image
+                nodes[use].image = images.get(sha256, "color" if use == "color" else "data", paths)
 
-    def add(self, kind):
+    def _add(self, kind):
         return self._nodes.new(kind)
 
-    def link(self, output, socket):
+    def _link(self, output, socket):
         self._links.new(output, socket)
+
+    def _add_attributes(self, slot, varying):
+        """A property has four numbers, of which a colour takes three."""
+        scalars = [(name, None) for name in varying if name != "base_color"]
+        while scalars or (not self.properties and "base_color" in varying):
+            attribute = self._add("ShaderNodeAttribute")
+            attribute.attribute_type = "OBJECT"
+            attribute.attribute_name = f"material{slot}.{len(self.properties)}"
+            if not self.properties and "base_color" in varying:
+                numbers = [("base_color", axis) for axis in range(3)]
+                self._varying["base_color"] = attribute.outputs["Vector"]
+            else:
+                numbers, scalars = scalars[:3], scalars[3:]
+                parts = self._add("ShaderNodeSeparateXYZ")
+                self._link(attribute.outputs["Vector"], parts.inputs[0])
+                for (name, _), output in zip(numbers, parts.outputs):
+                    self._varying[name] = output
+                numbers += numbers[-1:] * (3 - len(numbers))
+            if scalars:
+                self._varying[scalars[0][0]] = attribute.outputs["Alpha"]
+            numbers.append(scalars.pop(0) if scalars else numbers[-1])
+            self.properties[attribute.attribute_name] = numbers
+
+    def _give(self, name, socket):
+        """The value of that name to a socket."""
+        if name in self._varying:
+            self._link(self._varying[name], socket)
+        else:
+            self._constants[name].append(socket)
+
+    def _add_uv(self):
+        """UV coordinates times the repeats."""
+        product = self._add("ShaderNodeVectorMath")
+        product.operation = "SCALE"
+        self._link(self._add("ShaderNodeTexCoord").outputs["UV"], product.inputs[0])
+        self._give("texture_repeat", product.inputs["Scale"])
+        return product.outputs["Vector"]
 
     def _choice(self, shaders, first):
         """The shader whose number the object names: halved until one is left. Cycles skips the half
@@ -110,89 +170,50 @@ class _Tree:
         if len(shaders) == 1:
             return shaders[0]
         half = len(shaders) // 2
-        upper = self.add("ShaderNodeMath")
+        upper = self._add("ShaderNodeMath")
         upper.operation = "GREATER_THAN"
         upper.inputs[1].default_value = first + half - 0.5
-        self.link(self._values.look_index, upper.inputs[0])
-        mix = self.add("ShaderNodeMixShader")
-        self.link(upper.outputs["Value"], mix.inputs[0])
-        self.link(self._choice(shaders[:half], first), mix.inputs[1])
-        self.link(self._choice(shaders[half:], first + half), mix.inputs[2])
+        self._link(self._varying["look"], upper.inputs[0])
+        mix = self._add("ShaderNodeMixShader")
+        self._link(upper.outputs["Value"], mix.inputs[0])
+        self._link(self._choice(shaders[:half], first), mix.inputs[1])
+        self._link(self._choice(shaders[half:], first + half), mix.inputs[2])
         return mix.outputs[0]
 
     def _add_look(self, structure):
-        principled = self.add("ShaderNodeBsdfPrincipled")
+        principled = self._add("ShaderNodeBsdfPrincipled")
         textures = {use: self._add_texture() for use in structure}
         self._textures.append(textures)
-        for name, value in self._values.scalars.items():
-            source = textures[name].outputs["Color"] if name in textures else value
-            self.link(source, _input(principled, _SCALARS[name]))
-        color = self._values.color
+        for name in _SCALARS:
+            socket = _input(principled, _SCALARS[name])
+            if name in textures:
+                self._link(textures[name].outputs["Color"], socket)
+            else:
+                self._give(name, socket)
         if "color" in textures:
             # A vector product is a colour product, by one node in every version of Blender.
-            color = self.product("MULTIPLY", textures["color"].outputs["Color"], color)
-        self.link(color, principled.inputs["Base Color"])
+            product = self._add("ShaderNodeVectorMath")
+            product.operation = "MULTIPLY"
+            self._link(textures["color"].outputs["Color"], product.inputs[0])
+            self._give("base_color", product.inputs[1])
+            self._link(product.outputs["Vector"], principled.inputs["Base Color"])
+        else:
+            self._give("base_color", principled.inputs["Base Color"])
         if "normal" in textures:
-            normal_map = self.add("ShaderNodeNormalMap")
+            normal_map = self._add("ShaderNodeNormalMap")
             normal_map.uv_map = "UVMap"
-            self.link(textures["normal"].outputs["Color"], normal_map.inputs["Color"])
-            self.link(normal_map.outputs["Normal"], principled.inputs["Normal"])
+            self._link(textures["normal"].outputs["Color"], normal_map.inputs["Color"])
+            self._link(normal_map.outputs["Normal"], principled.inputs["Normal"])
         if "alpha" in textures:
-            self.link(textures["alpha"].outputs["Color"], principled.inputs["Alpha"])
+            self._link(textures["alpha"].outputs["Color"], principled.inputs["Alpha"])
         return principled.outputs["BSDF"]
 
     def _add_texture(self):
-        texture = self.add("ShaderNodeTexImage")
+        texture = self._add("ShaderNodeTexImage")
         texture.interpolation = "Linear"
         texture.extension = "REPEAT"
-        self.link(self._values.uv(), texture.inputs["Vector"])
+        self._link(self._uv, texture.inputs["Vector"])
         return texture
-
-    def product(self, operation, vector, factor):
-        product = self.add("ShaderNodeVectorMath")
-        product.operation = operation
-        self.link(vector, product.inputs[0])
-        self.link(factor, product.inputs["Scale"] if operation == "SCALE" else product.inputs[1])
-        return product.outputs["Vector"]
-
-
-class _Values:
-    """The sockets of a tree that carry what set_values wrote."""
-
-    def __init__(self, tree, slot):
-        self._tree = tree
-        first, second, third = (self._attribute(name) for name in _property_names(slot))
-        self.color = first.outputs["Vector"]
-        surface = self._parts(second)
-        look = self._parts(third)
-        self.scalars = {
-            "metallic": first.outputs["Alpha"],
-            "roughness": surface[0],
-            "specular": surface[1],
-            "transmission": surface[2],
-            "ior": second.outputs["Alpha"],
-            "clearcoat": look[0],
-        }
-        self._repeat, self.look_index = look[1], look[2]
-        self._uv = None
-
-    def uv(self):
-        """UV coordinates times the repeats."""
-        if self._uv is None:
-            coordinates = self._tree.add("ShaderNodeTexCoord")
-            self._uv = self._tree.product("SCALE", coordinates.outputs["UV"], self._repeat)
-        return self._uv
-
-    def _attribute(self, name):
-        attribute = self._tree.add("ShaderNodeAttribute")
-        attribute.attribute_type = "OBJECT"
-        attribute.attribute_name = name
-        return attribute
-
-    def _parts(self, attribute):
-        parts = self._tree.add("ShaderNodeSeparateXYZ")
-        self._tree.link(attribute.outputs["Vector"], parts.inputs[0])
-        return parts.outputs
 
 
 def _input(principled, name):

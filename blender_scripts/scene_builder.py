@@ -11,7 +11,7 @@ import bpy
 from mathutils import Matrix
 
 from image_cache import ImageCache
-from material_pool import MaterialPool, look_of, set_values
+from material_pool import MaterialPool
 from mesh_cache import MeshCache
 from world_builder import WorldBuilder
 
@@ -99,20 +99,21 @@ class SceneBuilder:
 
     def _set_materials(self, spec, mesh_paths, texture_paths):
         """Slots belong to the meshes: one material for all that the instances of a mesh wear there."""
-        looks = [look_of(material) for material in spec["materials"]]
-        worn = collections.defaultdict(set)  # (mesh, slot) -> looks
+        worn = collections.defaultdict(set)  # (mesh, slot) -> indices of materials
         for instance in spec["instances"]:
             for slot, material in enumerate(instance["materials"]):
-                worn[instance["mesh"], slot].add(looks[material])
-        # By structure first, so that as many frames as can be share a tree.
-        worn = {key: tuple(sorted(some, key=lambda look: ([use for use, _ in look], look)))
-                for key, some in worn.items()}
-        for (mesh, slot), some in worn.items():
-            self._meshes.get(mesh, mesh_paths).materials[slot] = self._materials.get(slot, some, texture_paths)
+                worn[instance["mesh"], slot].add(material)
+        wardrobes, shared = {}, {}  # meshes that wear the same share it
+        for (mesh, slot), indices in worn.items():
+            key = (slot, tuple(sorted(indices)))
+            if key not in shared:
+                materials = [spec["materials"][index] for index in key[1]]
+                shared[key] = self._materials.get(slot, materials, texture_paths)
+            wardrobes[mesh, slot] = shared[key]
+            self._meshes.get(mesh, mesh_paths).materials[slot] = shared[key].material
         for index, instance in enumerate(spec["instances"]):
             for slot, material in enumerate(instance["materials"]):
-                set_values(self._instances[index], slot, spec["materials"][material],
-                           worn[instance["mesh"], slot].index(looks[material]))
+                wardrobes[instance["mesh"], slot].dress(self._instances[index], spec["materials"][material])
 
     def _set_lights(self, specs):
         # Objects need some data when they are made, so the data comes first.
