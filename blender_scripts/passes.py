@@ -11,12 +11,13 @@ def sharp_output(output):
 
 
 class PassRenderer:
-    def __init__(self, scene, persistent_data=False):
+    def __init__(self, scene, persistent_data=False, device="cpu"):
         """With persistent data, pixels depend on the frames before."""
         self._scene = scene
         self._view_layer = scene.view_layers[0]
         _set_constants(scene)
         scene.render.use_persistent_data = persistent_data
+        scene.cycles.device = "CPU" if device == "cpu" else "GPU"
 
     def render(self, settings, output, frame_id):
         """Writes the passes of the present scene to `output`, with the id in the header's "Note"."""
@@ -69,7 +70,6 @@ def _set_constants(scene):
 
 
 def _set_cycles(cycles):
-    cycles.device = "CPU"
     cycles.time_limit = 0.0
     cycles.light_sampling_threshold = 0.0
     cycles.pixel_filter_type = "BLACKMAN_HARRIS"

@@ -6,7 +6,7 @@ import os
 import threading
 import time
 
-PROTOCOL = 3
+PROTOCOL = 4
 SPEC_VERSION = 5
 
 
@@ -48,6 +48,9 @@ class Ready:
     embree: str
     reciprocals: str
     libc: str
+    device: str
+    devices: str
+    denoisers: str
     protocol: int = PROTOCOL
     type: str = "ready"
 

@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True  # the folder may belong to somebody else
 import bpy  # noqa: E402
 
 import cpu_kernel  # noqa: E402
+import render_devices  # noqa: E402
 from passes import PassRenderer, sharp_output  # noqa: E402
 from protocol import SPEC_VERSION, Channel, Done, Failed, Ready  # noqa: E402
 from scene_builder import SceneBuilder  # noqa: E402
@@ -29,8 +30,8 @@ def main():
     os.sched_setaffinity(0, options.cpus)
     channel = Channel(options.read_fd, options.write_fd)
     builder = SceneBuilder()
-    renderer = PassRenderer(builder.scene, options.persistent_data)
-    channel.send(_ready())
+    renderer = PassRenderer(builder.scene, options.persistent_data, options.device)
+    channel.send(_ready(render_devices.use(options.device)))
     _silence_stdout()
     channel.send_signs_of_life(_SIGN_OF_LIFE_S)
     for request in channel.requests():
@@ -58,7 +59,7 @@ def _answer(request, builder, renderer):
     return Done(request.frame, request.attempt, built - begin, time.perf_counter() - built)
 
 
-def _ready():
+def _ready(device):
     build = bpy.app.build_hash
     return Ready(
         blender=".".join(str(number) for number in bpy.app.version),
@@ -68,6 +69,9 @@ def _ready():
         embree=cpu_kernel.embree(),
         reciprocals=cpu_kernel.reciprocals(),
         libc=cpu_kernel.libc(),
+        device=device,
+        devices=render_devices.text_of(render_devices.present()),
+        denoisers=", ".join(render_devices.denoisers()),
     )
 
 
@@ -105,6 +109,7 @@ def _parse_options():
     parser.add_argument("--write-fd", type=int, required=True)
     parser.add_argument("--cpus", type=lambda text: [int(cpu) for cpu in text.split(",")], required=True)
     parser.add_argument("--persistent-data", action="store_true")
+    parser.add_argument("--device", default="cpu")
     return parser.parse_args(arguments)
 
 

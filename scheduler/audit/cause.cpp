@@ -117,7 +117,8 @@ Result<std::string> CauseFinder::hash_of(const Trial& trial) {
   WorkerOptions& worker = options.worker;
   options.pool.workers = 1;
   worker.threads = made_.threads;
-  worker.conditions = {trial.kernels, trial.persistent_data};
+  worker.conditions.kernels = trial.kernels;
+  worker.conditions.persistent_data = trial.persistent_data;
   Conditions varied = trial.varied;
   if (varied.contains(Condition::kIsa) && !portable_) {
     worker.conditions.kernels = kernels_here_;

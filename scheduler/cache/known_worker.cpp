@@ -68,7 +68,10 @@ auto fields_of(Ready& ready) {
                     std::pair("kernel", &ready.kernel),
                     std::pair("embree", &ready.embree),
                     std::pair("reciprocals", &ready.reciprocals),
-                    std::pair("libc", &ready.libc)};
+                    std::pair("libc", &ready.libc),
+                    std::pair("device", &ready.device),
+                    std::pair("devices", &ready.devices),
+                    std::pair("denoisers", &ready.denoisers)};
 }
 
 }  // namespace
@@ -100,7 +103,8 @@ std::string worker_identity(const Json& facts, const WorkerOptions& options) {
   std::string text;  // not JSON: a path or a variable need not be UTF-8
   const auto add = [&text](const std::string& part) { text += part + '\0'; };
   for (const std::string& part :
-       {canonical_json(of_all_threads), options.blender.string(), *preload, cpu,
+       {canonical_json(of_all_threads), std::string(name_of(options.conditions.device)),
+        options.blender.string(), *preload, cpu,
         stamp_of("/etc/ld.so.cache"),  // is written anew whenever a library of the system changes
         std::string(options.wrapper.empty() ? "" : "wrapped")}) {
     add(part);

@@ -137,6 +137,7 @@ Json Provenance::json_of_worker(const ReadyMessage& ready) const {
   attempt["embree"] = ready.embree;
   attempt["reciprocals"] = ready.reciprocals;
   attempt["libc"] = ready.libc;
+  attempt["device"] = ready.device;
   return attempt;
 }
 

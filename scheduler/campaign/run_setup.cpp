@@ -21,12 +21,16 @@ Status check_view(const CampaignSettings& settings, const ColorManagement& color
               known.error().message);
 }
 
-void choose_workers_to_render(RunOptions& options, const RenderSettings& render,
+void choose_workers_to_render(RunOptions& options, const CampaignSettings& settings,
                               std::int64_t frames) {
+  const RenderSettings& render = settings.render;
   PoolOptions& pool = options.pool;
   int& threads = options.worker.threads;
+  // One worker has all devices that are not the CPU, and feeds them with all cores.
   const WorkerPlan plan =
-      choose_workers(render.width, render.height, render.samples, frames, core_count());
+      settings.device == RenderDevice::kCpu
+          ? choose_workers(render.width, render.height, render.samples, frames, core_count())
+          : WorkerPlan{1, core_count()};
   if (threads == 0) {
     threads = pool.workers > 0 ? std::max(1, core_count() / pool.workers) : plan.threads;
   }
@@ -75,10 +79,12 @@ Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
                 worker.preload.string());
   }
   worker.conditions.persistent_data = settings.persistent_data;
+  worker.conditions.device = settings.device;
+  worker.conditions.denoise = settings.render.denoise != Denoise::kOff;
   if (settings.determinism.mode == Determinism::Mode::kPortable) {
     worker.conditions.kernels = kernels_of(settings.determinism.isa);
   }
-  choose_workers_to_render(options, settings.render, frames);
+  choose_workers_to_render(options, settings, frames);
   if (options.sandbox) {
     if (Status works = check_sandbox(); !works) return forward_error(works);
   }

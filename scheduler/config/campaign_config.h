@@ -69,6 +69,7 @@ struct RenderConfig {
   double clamp_indirect = 10.0;
   bool depth = false;
   bool normal = false;
+  RenderDevice device = RenderDevice::kCpu;
   bool persistent_data = false;  ///< Cycles keeps scenes: pixels depend on earlier frames
   Place place;
 };

@@ -53,6 +53,12 @@ Determinism read_determinism(SectionReader& campaign, const RenderConfig& render
         "before (docs/determinism.md): leave it out, or give the promise up with "
         "'determinism: none'");
   }
+  if (render.device != RenderDevice::kCpu && determinism.mode == Mode::kPortable) {
+    campaign.errors().add(render.place,
+                          fmt::format("determinism: portable pins kernels of the CPU, and "
+                                      "render.device is {}: choose one of them",
+                                      name_of(render.device)));
+  }
   return determinism;
 }
 

@@ -1,8 +1,10 @@
 #include "config/render_section.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/nearest_name.h"
 
@@ -33,14 +35,16 @@ AdaptiveSampling read_adaptive(SectionReader& render, int samples) {
   return adaptive;
 }
 
-Denoise read_denoise(SectionReader& render) {
-  const std::string name = render.text("denoise", kDenoiseNames[0]);
-  const auto found = std::find(kDenoiseNames.begin(), kDenoiseNames.end(), name);
-  if (found != kDenoiseNames.end()) return static_cast<Denoise>(found - kDenoiseNames.begin());
-  render.errors().add(render.node().find("denoise")->place(),
-                      "expected one of off, oidn, oidn_fast, found '" + name + "'" +
-                          did_you_mean(name, {"off", "oidn", "oidn_fast"}));
-  return Denoise::kOff;
+/// One of `names`, which are those of an enum in its order; absent: the first.
+template <class Enum, std::size_t N>
+Enum read_enum(SectionReader& render, const char* key, const std::array<const char*, N>& names) {
+  const std::string name = render.text(key, names[0]);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<Enum>(found - names.begin());
+  render.errors().add(render.node().find(key)->place(),
+                      fmt::format("expected one of {}, found '{}'{}", fmt::join(names, ", "), name,
+                                  did_you_mean(name, {names.begin(), names.end()})));
+  return Enum{};
 }
 
 }  // namespace
@@ -72,7 +76,8 @@ RenderConfig read_render(SectionReader& campaign, Diagnostics& errors) {
     }
   }
   render.adaptive = read_adaptive(section, render.samples);
-  render.denoise = read_denoise(section);
+  render.denoise = read_enum<Denoise>(section, "denoise", kDenoiseNames);
+  render.device = read_enum<RenderDevice>(section, "device", kRenderDeviceNames);
   if (const auto kept = section.find("persistent_data")) render.place = kept->place();
   render.persistent_data = section.flag("persistent_data", render.persistent_data);
   section.refuse_other_keys();

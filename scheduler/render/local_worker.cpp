@@ -84,6 +84,9 @@ std::vector<std::string> arguments_of(const WorkerOptions& options) {
                                         "--cpus",
                                         fmt::format("{}", fmt::join(allowed_cpus(), ","))};
   arguments.insert(arguments.end(), own.begin(), own.end());
+  if (options.conditions.device != RenderDevice::kCpu) {
+    arguments.insert(arguments.end(), {"--device", name_of(options.conditions.device)});
+  }
   if (options.conditions.persistent_data) arguments.emplace_back("--persistent-data");
   return arguments;
 }

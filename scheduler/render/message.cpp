@@ -33,7 +33,9 @@ WorkerMessage read_message(const Json& json) {
         integer_of<int>(json.at("protocol")),      json.at("blender").get<std::string>(),
         json.at("build").get<std::string>(),       json.at("ocio_config").get<std::string>(),
         json.at("kernel").get<std::string>(),      json.at("embree").get<std::string>(),
-        json.at("reciprocals").get<std::string>(), json.at("libc").get<std::string>()};
+        json.at("reciprocals").get<std::string>(), json.at("libc").get<std::string>(),
+        json.at("device").get<std::string>(),      json.at("devices").get<std::string>(),
+        json.at("denoisers").get<std::string>()};
   }
   if (type == "alive") return AliveMessage{integer_of<std::int64_t>(json.at("memory_bytes"))};
   const FrameJob job = {integer_of<std::int64_t>(json.at("frame")),

@@ -12,7 +12,7 @@
 
 namespace seedframe {
 
-inline constexpr int kWorkerProtocol = 3;
+inline constexpr int kWorkerProtocol = 4;
 
 /// Everything a worker needs to render one frame.
 struct RenderRequest {
@@ -40,6 +40,9 @@ struct ReadyMessage {
   std::string embree;       ///< kernels that Embree uses: "avx512", "avx2", …; empty: unknown
   std::string reciprocals;  ///< hash of the CPU's approximate reciprocals; empty: unknown
   std::string libc;         ///< "glibc 2.36"
+  std::string device;       ///< "cpu", or the devices that it renders on; empty: there are none
+  std::string devices;      ///< all that there are: "CPU (…), CUDA (…)"
+  std::string denoisers;    ///< "OpenImageDenoise", or empty
 };
 
 /// Comes every few seconds, whatever else the worker does.

@@ -30,6 +30,26 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
+Status check_abilities(const WorkerConditions& asked, const ReadyMessage& ready) {
+  if (asked.device != RenderDevice::kCpu && ready.device.empty()) {
+    return fail(
+        ErrorKind::kEnvironment,
+        "render.device is {}, and Blender {} finds no such device on this machine, only {}. "
+        "Install its driver, use a Blender that was built for it, or set render.device to "
+        "what there is",
+        name_of(asked.device), ready.blender, ready.devices.empty() ? "the CPU" : ready.devices);
+  }
+  if (asked.denoise && ready.denoisers.find("OpenImageDenoise") == std::string::npos) {
+    return fail(
+        ErrorKind::kEnvironment,
+        "render.denoise needs Open Image Denoise, and this Blender {} was built without it. "
+        "Use another one ('scripts/setup.sh --blender 4.5' installs one that has it), or "
+        "set render.denoise to off",
+        ready.blender);
+  }
+  return {};
+}
+
 }  // namespace
 
 Kernels kernels_of(Isa isa) {
@@ -57,7 +77,7 @@ std::map<std::string, std::string> environment_of(const WorkerConditions& condit
 }
 
 Status check_worker(const WorkerConditions& asked, const ReadyMessage& ready) {
-  if (!asked.kernels) return {};
+  if (Status able = check_abilities(asked, ready); !able || !asked.kernels) return able;
   if (ready.kernel != asked.kernels->cycles) {
     return fail(ErrorKind::kEnvironment,
                 "Cycles was to use its kernel {}, and on this machine it uses {}: the CPU is too "

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/isa.h"
 #include "render/message.h"
+#include "spec/render_device.h"
 
 namespace seedframe {
 
@@ -27,6 +28,8 @@ struct WorkerConditions {
   std::optional<Kernels> kernels;
   /// Cycles keeps scenes from frame to frame: pixels then depend on the frames before.
   bool persistent_data = false;
+  RenderDevice device = RenderDevice::kCpu;
+  bool denoise = false;  ///< Open Image Denoise is needed
 };
 
 /// Variables for the worker: which kernels, the library to be preloaded that says and pins Embree's
@@ -35,7 +38,7 @@ struct WorkerConditions {
 std::map<std::string, std::string> environment_of(const WorkerConditions& conditions,
                                                   const std::filesystem::path& preload);
 
-/// Whether a worker is as it was asked to be; kEnvironment: its CPU or its Blender cannot.
+/// Whether a worker is as it was asked to be; kEnvironment: its machine or its Blender cannot.
 Status check_worker(const WorkerConditions& asked, const ReadyMessage& ready);
 
 }  // namespace seedframe

@@ -19,6 +19,7 @@ CampaignSettings settings_of(const CampaignConfig& config) {
   settings.render.clamp_indirect = config.render.clamp_indirect;
   settings.render.depth = config.render.depth;
   settings.render.normal = config.render.normal;
+  settings.device = config.render.device;
   settings.persistent_data = config.render.persistent_data;
   settings.determinism = config.determinism;
   settings.image = config.image.settings;

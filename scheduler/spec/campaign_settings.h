@@ -13,6 +13,7 @@
 #include "spec/frame_spec.h"
 #include "spec/image_encoding.h"
 #include "spec/image_settings.h"
+#include "spec/render_device.h"
 #include "spec/twin_check.h"
 
 namespace seedframe {
@@ -34,7 +35,8 @@ struct CampaignSettings {
   std::int64_t scenes = 1;
   std::int64_t frames_per_scene = 1;
   std::vector<std::string> categories;
-  RenderSettings render;         ///< but for its seed, which every frame has its own of
+  RenderSettings render;  ///< but for its seed, which every frame has its own of
+  RenderDevice device = RenderDevice::kCpu;
   bool persistent_data = false;  ///< Cycles keeps scenes: pixels depend on earlier frames
   Determinism determinism;
   ImageSettings image;

@@ -12,44 +12,55 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Result<CampaignConfig> read_with(const std::string& render) {
+Result<CampaignConfig> read_rendering(const std::string& render) {
   return read_campaign_config("seedframe: 1\ncamera: {distance_m: 1}\nrender: {" + render + "}\n",
                               "r.yaml");
 }
 
-std::string refusal_of(const std::string& render) {
-  const auto config = read_with(render);
+std::string refusal_of_rendering(const std::string& render) {
+  const auto config = read_rendering(render);
   return message_of(config);
 }
 
 TEST(RenderSection, RendersEverySampleOfEveryPixelUnlessSaidOtherwise) {
-  const auto config = read_with("samples: 9");
+  const auto config = read_rendering("samples: 9");
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->render.adaptive, AdaptiveSampling());
   EXPECT_EQ(config->render.denoise, Denoise::kOff);
 }
 
 TEST(RenderSection, AdaptiveSamplingNamesItsThresholdAndItsMinimum) {
-  const auto config = read_with("samples: 64, adaptive: {threshold: 0.05, min_samples: 64}");
+  const auto config = read_rendering("samples: 64, adaptive: {threshold: 0.05, min_samples: 64}");
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->render.adaptive, (AdaptiveSampling{0.05, 64}));
-  EXPECT_THAT(refusal_of("adaptive: {threshold: 0.05}"), HasSubstr("min_samples"));
-  EXPECT_THAT(refusal_of("adaptive: {min_samples: 4}"), HasSubstr("threshold"));
-  EXPECT_THAT(refusal_of("adaptive: {threshold: 0, min_samples: 4}"),
+  EXPECT_THAT(refusal_of_rendering("adaptive: {threshold: 0.05}"), HasSubstr("min_samples"));
+  EXPECT_THAT(refusal_of_rendering("adaptive: {min_samples: 4}"), HasSubstr("threshold"));
+  EXPECT_THAT(refusal_of_rendering("adaptive: {threshold: 0, min_samples: 4}"),
               HasSubstr("render.adaptive.threshold"));
-  EXPECT_THAT(refusal_of("adaptive: {threshold: 1, min_samples: 0}"),
+  EXPECT_THAT(refusal_of_rendering("adaptive: {threshold: 1, min_samples: 0}"),
               HasSubstr("render.adaptive.min_samples"));
-  EXPECT_THAT(refusal_of("samples: 8, adaptive: {threshold: 0.1, min_samples: 16}"),
+  EXPECT_THAT(refusal_of_rendering("samples: 8, adaptive: {threshold: 0.1, min_samples: 16}"),
               HasSubstr("render.adaptive: min_samples of 16 are more than render.samples, 8"));
 }
 
 TEST(RenderSection, ADenoiserIsOneOfThree) {
-  EXPECT_EQ(read_with("denoise: oidn")->render.denoise, Denoise::kOidn);
-  EXPECT_EQ(read_with("denoise: oidn_fast")->render.denoise, Denoise::kOidnFast);
-  EXPECT_EQ(read_with("denoise: off")->render.denoise, Denoise::kOff);
-  EXPECT_THAT(refusal_of("denoise: oidn_fats"),
+  EXPECT_EQ(read_rendering("denoise: oidn")->render.denoise, Denoise::kOidn);
+  EXPECT_EQ(read_rendering("denoise: oidn_fast")->render.denoise, Denoise::kOidnFast);
+  EXPECT_EQ(read_rendering("denoise: off")->render.denoise, Denoise::kOff);
+  EXPECT_THAT(refusal_of_rendering("denoise: oidn_fats"),
               HasSubstr("render.denoise: expected one of off, oidn, oidn_fast, found 'oidn_fats' "
                         "(did you mean 'oidn_fast'?)"));
+}
+
+TEST(RenderSection, TheDeviceIsTheCpuUnlessSaidOtherwise) {
+  EXPECT_EQ(read_rendering("samples: 9")->render.device, RenderDevice::kCpu);
+  EXPECT_EQ(read_rendering("device: oneapi")->render.device, RenderDevice::kOneapi);
+  EXPECT_THAT(
+      refusal_of_rendering("device: cude"),
+      HasSubstr("render.device: expected one of cpu, cuda, optix, hip, oneapi, metal, found "
+                "'cude' (did you mean 'cuda'?)"));
+  EXPECT_THAT(refusal_of_rendering("device: cuda}\ndeterminism: portable\nimage: {gamma: 1"),
+              HasSubstr("portable pins kernels of the CPU, and render.device is cuda"));
 }
 
 }  // namespace

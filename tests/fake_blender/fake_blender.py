@@ -77,12 +77,22 @@ def main():
     if wishes.get("hang_before_ready"):
         hang()
     reader = os.fdopen(option("--read-fd"), "rb", closefd=False)
-    send({"type": "ready", "protocol": wishes.get("protocol", 3), "blender": "3.4.1", "build": "fake",
-          "ocio_config": "", "kernel": wished_kernel(wishes), "embree": os.environ.get("SEEDFRAME_EMBREE_ISA", "avx2"), "reciprocals": "fake", "libc": ""})
+    send({"type": "ready", "protocol": wishes.get("protocol", 4), "blender": "3.4.1", "build": "fake",
+          "ocio_config": "", "kernel": wished_kernel(wishes), "embree": os.environ.get("SEEDFRAME_EMBREE_ISA", "avx2"), "reciprocals": "fake", "libc": "",
+          "device": wished_device(wishes), "devices": ", ".join(["CPU (fake)", *wishes.get("devices", [])]),
+          "denoisers": wishes.get("denoisers", "")})
     threading.Thread(target=give_signs_of_life, daemon=True).start()
     for rendered, line in enumerate(reader):
         send(answer(json.loads(line), wishes, rendered))
     return 0
+
+
+def wished_device(wishes):
+    """What of its devices, such as "CUDA (fake)", is of the kind that the scheduler asks for."""
+    if "--device" not in sys.argv:
+        return "cpu"
+    kind = sys.argv[sys.argv.index("--device") + 1].upper()
+    return ", ".join(device for device in wishes.get("devices", []) if device.startswith(kind + " "))
 
 
 def wished_kernel(wishes):

@@ -214,7 +214,10 @@ class FakeExecutor::FakeWorker : public Worker {
                {"kernel", "avx2"},
                {"embree", "avx2"},
                {"reciprocals", "fake"},
-               {"libc", ""}});
+               {"libc", ""},
+               {"device", "cpu"},
+               {"devices", "CPU (fake)"},
+               {"denoisers", ""}});
     answered_ = when;
   }
   void answer(Time when, const char* type, const FrameJob& job) {

@@ -38,7 +38,7 @@ TEST(Message, EmptyTablesAreObjects) {
 
 TEST(Message, ReadsReady) {
   const auto message = parse_worker_message(
-      R"({"type":"ready","protocol":1,"blender":"3.4.1","build":"b","ocio_config":"/c","kernel":"avx2","embree":"avx512","reciprocals":"0123","libc":"glibc 2.36"})");
+      R"({"type":"ready","protocol":1,"blender":"3.4.1","build":"b","ocio_config":"/c","kernel":"avx2","embree":"avx512","reciprocals":"0123","libc":"glibc 2.36","device":"cpu","devices":"CPU","denoisers":"OpenImageDenoise"})");
   ASSERT_TRUE(message);
   const auto& ready = std::get<ReadyMessage>(*message);
   EXPECT_EQ(ready.protocol, 1);
@@ -49,6 +49,9 @@ TEST(Message, ReadsReady) {
   EXPECT_EQ(ready.embree, "avx512");
   EXPECT_EQ(ready.reciprocals, "0123");
   EXPECT_EQ(ready.libc, "glibc 2.36");
+  EXPECT_EQ(ready.device, "cpu");
+  EXPECT_EQ(ready.devices, "CPU");
+  EXPECT_EQ(ready.denoisers, "OpenImageDenoise");
 }
 
 TEST(Message, ReadsDone) {

@@ -18,6 +18,12 @@ using ::testing::Pair;
 
 WorkerConditions pinned_to(Isa isa) { return {.kernels = kernels_of(isa)}; }
 
+WorkerConditions on(RenderDevice device) {
+  WorkerConditions conditions;
+  conditions.device = device;
+  return conditions;
+}
+
 ReadyMessage worker_with(const std::string& kernel, const std::string& embree) {
   ReadyMessage ready;
   ready.kernel = kernel;
@@ -56,6 +62,33 @@ TEST(WorkerConditions, TheAllocatorKeepsItsMemoryUnlessTheUserSetsItOtherwise) {
   ASSERT_EQ(setenv("MALLOC_CONF", "narenas:1", 1), 0);
   EXPECT_TRUE(environment_of({}, {}).empty());
   unsetenv("MALLOC_CONF");
+}
+
+TEST(WorkerConditions, AMissingDeviceIsRefusedWithThoseThatThereAre) {
+  ReadyMessage ready = worker_with("avx2", "avx2");
+  ready.device = "";
+  ready.devices = "CPU (Some CPU), HIP (Some card)";
+  EXPECT_TRUE(check_worker({}, ready));
+  const Status none = check_worker(on(RenderDevice::kOptix), ready);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().kind, ErrorKind::kEnvironment);
+  EXPECT_THAT(none.error().message, HasSubstr("render.device is optix"));
+  EXPECT_THAT(none.error().message, HasSubstr("only CPU (Some CPU), HIP (Some card)"));
+  ready.device = "HIP (Some card)";
+  EXPECT_TRUE(check_worker(on(RenderDevice::kHip), ready));
+}
+
+TEST(WorkerConditions, AMissingDenoiserIsRefusedWithWhatToDo) {
+  ReadyMessage ready = worker_with("avx2", "avx2");
+  ready.blender = "3.4.1";
+  WorkerConditions denoising;
+  denoising.denoise = true;
+  const Status none = check_worker(denoising, ready);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().kind, ErrorKind::kEnvironment);
+  EXPECT_THAT(none.error().message, HasSubstr("this Blender 3.4.1 was built without it"));
+  ready.denoisers = "OpenImageDenoise, OptiX";
+  EXPECT_TRUE(check_worker(denoising, ready));
 }
 
 TEST(WorkerConditions, AWorkerThatCannotKeepThemIsRefused) {
