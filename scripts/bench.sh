@@ -5,19 +5,20 @@
 # measures the company.
 #
 #   scripts/bench.sh               all
-#   scripts/bench.sh NAME…         of expansion, twin, stability, overhead, memory, export, store, audit, startup, determinism
+#   scripts/bench.sh NAME…         of expansion, twin, frame, stability, overhead, memory, export, store, audit, startup, determinism
 set -eu
 cd "$(dirname "$0")/.."
 export SEEDFRAME_CACHE=off  # what is rendered here is rendered
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
-ninja --quiet -C build/release seedframe bench_expansion bench_twin bench_export bench_store stability
+ninja --quiet -C build/release seedframe bench_expansion bench_twin bench_frame bench_export bench_store stability
 mkdir -p results/bench results/stability results/reliability results/determinism
-[ $# -gt 0 ] || set -- expansion twin stability overhead memory export store audit startup determinism
+[ $# -gt 0 ] || set -- expansion twin frame stability overhead memory export store audit startup determinism
 failed=0
 for name in "$@"; do
   case $name in
     expansion) tests/bench/expansion.py --report results/bench/expansion.md ;;
     twin) tests/bench/twin.py --report results/bench/twin.md ;;
+    frame) tests/bench/frame.py --report results/bench/frame.md ;;
     stability) tests/stability/stability.py --report results/stability/twin.md ;;
     overhead) tests/bench/overhead.py --report results/bench/overhead.md ;;
     memory) tests/bench/worker_memory.py --report results/bench/memory.md ;;

@@ -11,7 +11,7 @@ packages="
   bubblewrap ca-certificates ccache clang clang-format clang-tidy cmake dpkg-dev fish g++ git gzip libclang-dev
   libclang-rt-dev llvm-dev man-db ninja-build pkg-config zsh
   blender python3 python3-jsonschema python3-numpy python3-pil python3-yaml
-  libarchive-dev libboost-dev libcgal-dev libcli11-dev libdraco-dev libeigen3-dev libembree-dev libexpected-dev
+  libarchive-dev libboost-dev libcgal-dev libcli11-dev libdeflate-dev libdraco-dev libeigen3-dev libembree-dev libexpected-dev
   libfmt-dev
   libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libpugixml-dev librandom123-dev libsqlite3-dev
   libssl-dev

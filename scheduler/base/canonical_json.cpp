@@ -81,7 +81,7 @@ void append(std::string& out, const Json& value, Layout layout, int depth) {
       for (const auto& [key, item] : value.items()) {
         if (!first) out += ',';
         if (layout.readable) append_newline(out, depth + 1);
-        out += Json(key).dump();
+        append_canonical(out, std::string_view(key));
         out += layout.readable ? ": " : ":";
         append(out, item, layout, depth + 1);
         first = false;

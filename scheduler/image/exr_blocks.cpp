@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <OpenEXR/ImfChannelList.h>
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include "image/exr_input.h"
 
@@ -27,28 +27,41 @@ bool unpacks_by_rle(std::string_view packed, std::size_t expected) {
   return unpacked == expected;
 }
 
-bool unpacks_by_zip(std::string_view packed, std::size_t expected, std::vector<Bytef>& scratch) {
-  scratch.resize(expected);
-  uLongf unpacked = expected;
-  const int result = ::uncompress(scratch.data(), &unpacked,
-                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
-  return result == Z_OK && unpacked == expected;
-}
+/// Unpacks blocks of one file, one after the other.
+class BlockCheck {
+ public:
+  BlockCheck() : inflater_(libdeflate_alloc_decompressor()) {}
+  ~BlockCheck() { libdeflate_free_decompressor(inflater_); }
+  BlockCheck(const BlockCheck&) = delete;
+  BlockCheck& operator=(const BlockCheck&) = delete;
 
-bool is_whole(std::string_view packed, std::size_t expected, Imf::Compression compression,
-              std::vector<Bytef>& scratch) {
-  if (packed.size() == expected) return true;  // what would not become smaller is stored as it is
-  if (packed.size() > expected) return false;
-  switch (compression) {
-    case Imf::RLE_COMPRESSION:
-      return unpacks_by_rle(packed, expected);
-    case Imf::ZIPS_COMPRESSION:
-    case Imf::ZIP_COMPRESSION:
-      return unpacks_by_zip(packed, expected, scratch);
-    default:
-      return false;
+  bool is_whole(std::string_view packed, std::size_t expected, Imf::Compression compression) {
+    if (packed.size() == expected) return true;  // what would not become smaller is stored as it is
+    if (packed.size() > expected) return false;
+    switch (compression) {
+      case Imf::RLE_COMPRESSION:
+        return unpacks_by_rle(packed, expected);
+      case Imf::ZIPS_COMPRESSION:
+      case Imf::ZIP_COMPRESSION:
+        return unpacks_by_zip(packed, expected);
+      default:
+        return false;
+    }
   }
-}
+
+ private:
+  bool unpacks_by_zip(std::string_view packed, std::size_t expected) {
+    if (inflater_ == nullptr) return false;
+    scratch_.resize(expected);
+    std::size_t unpacked = 0;
+    return libdeflate_zlib_decompress(inflater_, packed.data(), packed.size(), scratch_.data(),
+                                      expected, &unpacked) == LIBDEFLATE_SUCCESS &&
+           unpacked == expected;
+  }
+
+  libdeflate_decompressor* inflater_;
+  std::vector<unsigned char> scratch_;
+};
 
 }  // namespace
 
@@ -65,7 +78,7 @@ const char* exr_block_fault(std::string_view bytes, const Imf::Header& header) {
     bytes_per_line += width * (channel.type == Imf::HALF ? 2 : 4);
   }
   const std::size_t lines = header.compression() == Imf::ZIP_COMPRESSION ? 16 : 1;
-  std::vector<Bytef> scratch;
+  BlockCheck check;
   // The header is followed by the blocks' places in the file; a block is its first line, its length
   // and what is packed.
   std::size_t entry = exr_header_end(bytes);
@@ -76,7 +89,7 @@ const char* exr_block_fault(std::string_view bytes, const Imf::Header& header) {
     const std::size_t length = little_endian<std::uint32_t>(bytes, block + 4);
     if (length > bytes.size() - block - 8) return "it ends in a block of lines";
     const std::size_t expected = bytes_per_line * std::min(lines, height - line);
-    if (!is_whole(bytes.substr(block + 8, length), expected, header.compression(), scratch)) {
+    if (!check.is_whole(bytes.substr(block + 8, length), expected, header.compression())) {
       return "a block of lines does not hold the values of its channels";
     }
   }
