@@ -30,19 +30,19 @@ class PinnedDataset : public ProgramTest {
 TEST_F(PinnedDataset, LabelsOfTheParts) {
   label("parts.yaml");
   EXPECT_EQ(hash_of("c/frames"),
-            "3403b9d47bf10747c75595fed05e66c1fc37d65d27d38f7502bf77dc629883d0");
+            "a3b5522e5a147badbe75ac720beefe8453481b503ab0450e8de104736f239727");
 }
 
 TEST_F(PinnedDataset, LabelsOfTheRobocupScene) {
   label("robocup_spl.yaml");
   EXPECT_EQ(hash_of("c/frames"),
-            "37985ef3c6b33c997ade5e87b2ef090b2b2f35ee323d4e283953a678c5048f6a");
+            "b2e58fb577299e5309aefceafa9e98a9d043b070352db3114948ca370e5ac30b");
 }
 
 TEST_F(PinnedDataset, LabelsOfTheTyolScene) {
   label("tyol_multi_8_target.yaml");
   EXPECT_EQ(hash_of("c/frames"),
-            "d1d9bc22c525277811b56d7af77f3dbe807f0d24e83784e193b9ebb510873e8e");
+            "cf884fc538b143ac1fa8d32bdb413147770fb3357283259d8493a2926d65cb58");
 }
 
 TEST_F(PinnedDataset, ExportsInAllFormats) {
@@ -64,9 +64,9 @@ camera: {target: [0, 0, 0], distance_m: {uniform: [0.2, 0.5]}}
 )");
   const Outcome made = run({"submit", "pinned.yaml", "-o", "c", "--blender", kFakeBlender});
   ASSERT_EQ(made.exit_code, 0) << made.errors;
-  EXPECT_EQ(dataset_hash(), "a180a8cc3e22ccdb8f9c34bf22bc5fa5dacebd60cacffbe071e477a397af98a0");
+  EXPECT_EQ(dataset_hash(), "f68c33477f330be584855c0d55b929778de70941c66270a31408327c120e506e");
   EXPECT_EQ(hash_of("c/frames"),
-            "bb188d0bd7a042f5ae3da1907d5c2a53feba6110a686e1a902de571198a7a0d5");
+            "989e59b2970ff014a832cbe1a4b4f813f6c9c57f3bec6a6866f54f78b75ee7fc");
   std::vector<std::string> arguments = {"export", "c", "--split", "train=0.5,val=0.5"};
   for (const char* format : {"coco", "coco-polygon", "coco-panoptic", "yolo-detect", "yolo-segment",
                              "yolo-obb", "voc", "bop", "patches", "webdataset", "statistics"}) {
@@ -75,7 +75,7 @@ camera: {target: [0, 0, 0], distance_m: {uniform: [0.2, 0.5]}}
   const Outcome exported = run(arguments);
   ASSERT_EQ(exported.exit_code, 0) << exported.errors;
   EXPECT_EQ(hash_of("c/exports"),
-            "6c4547e130b1480ce604d14eb0d8fa1e9034245b223d53ec6a865639bafa25ab");
+            "c968b7c78733d2bf6d74934ae0bb649102645f62821254a037aebfe550741752");
 }
 
 }  // namespace
