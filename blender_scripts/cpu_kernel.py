@@ -7,25 +7,16 @@ import ctypes
 import os
 import platform
 
-# Best first, as Cycles names what the CPU can, and with the variable that forbids it.
-_KERNELS = (
-    ("avx2", "AVX2", "CYCLES_CPU_NO_AVX2"),
-    ("avx", "AVX", "CYCLES_CPU_NO_AVX"),
-    ("sse41", "SSE41", "CYCLES_CPU_NO_SSE41"),
-    ("sse3", "SSE3", "CYCLES_CPU_NO_SSE3"),
-    ("sse2", "SSE2", "CYCLES_CPU_NO_SSE2"),
-)
-_REMOVED_IN_4_0 = {"avx", "sse3"}
+import blender_versions
 
 
 def choose(capabilities, environment, blender_version):
     """The kernel for a CPU that can so much. Cycles uses one only if all lesser ones are allowed."""
-    best = "generic"
-    for name, capability, forbidding in reversed(_KERNELS):
+    best, kernels = blender_versions.kernels(blender_version)
+    for name, capability, forbidding in kernels:
         if forbidding in environment or capability not in capabilities:
             break
-        if blender_version < (4, 0, 0) or name not in _REMOVED_IN_4_0:
-            best = name
+        best = name
     return best
 
 

@@ -2,6 +2,7 @@
 
 import bpy
 
+import blender_versions
 from bounded_cache import BoundedCache
 
 MAX_PIXELS = 64_000_000  # of all cached images; Blender holds 4 bytes of each, 16 for float images
@@ -18,17 +19,9 @@ class ImageCache:
         self._cache.trim()
 
     def get(self, sha256, use, paths):
-        """An image for one of the uses in _COLOR_SPACES."""
+        """An image to be used as "color", "data" or "environment"."""
         # The colour space belongs to Blender's image, so one file may be several of them.
         return self._cache.get((sha256, use), lambda: _load(sha256, use, paths))
-
-
-# "Linear" is linear Rec.709; Blender 4 calls it so.
-_COLOR_SPACES = {
-    "color": ("sRGB",),
-    "data": ("Non-Color",),
-    "environment": ("Linear", "Linear Rec.709"),
-}
 
 
 # Their colours are linear as they are; those of all other files are sRGB.
@@ -46,16 +39,6 @@ def _load(sha256, use, paths):
         raise ValueError(f"{path}: no image that Blender can read")
     if use == "color" and path.lower().endswith(_LINEAR_ENDINGS):
         use = "environment"
-    _set_color_space(image, _COLOR_SPACES[use])
+    blender_versions.set_color_space(image, use)
     image.alpha_mode = "NONE"
     return image, width * height
-
-
-def _set_color_space(image, names):
-    for name in names:
-        try:
-            image.colorspace_settings.name = name
-            return
-        except TypeError:  # this Blender has no such colour space
-            continue
-    raise ValueError(f"this Blender has none of the colour spaces {names}")

@@ -4,6 +4,8 @@ import os
 
 import bpy
 
+import blender_versions
+
 
 def sharp_output(output):
     """Where the passes without depth of field go, beside those with it."""
@@ -79,8 +81,7 @@ def _set_cycles(cycles):
     cycles.sample_clamp_direct = 0.0
     cycles.use_fast_gi = False
     cycles.use_auto_tile = False
-    if hasattr(cycles, "use_guiding"):  # Blender 3.4
-        cycles.use_guiding = False
+    blender_versions.set_sampling(cycles)
 
 
 def _set_adaptive(cycles, adaptive):
@@ -100,7 +101,7 @@ def _set_denoiser(cycles, denoise):
 
 def _set_output(render):
     image = render.image_settings
-    image.file_format = "OPEN_EXR_MULTILAYER"
+    blender_versions.set_multilayer_file(image)
     image.color_mode = "RGBA"
     image.color_depth = "16"  # half for Combined; data passes are float all the same
     image.exr_codec = "ZIP"

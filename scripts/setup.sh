@@ -2,8 +2,9 @@
 # Installs what building, testing and rendering need on Debian 12, and builds. Run again, it does only what is
 # missing. As root, or with sudo.
 #
-#   scripts/setup.sh            packages, a release build, and a link to it in PATH
-#   scripts/setup.sh --packages packages only
+#   scripts/setup.sh                packages, a release build, and a link to it in PATH
+#   scripts/setup.sh --packages     packages only
+#   scripts/setup.sh --blender 4.5  what Blender 4.5 (or 4.2, or 5.0) needs, and it: venv/blender-4.5
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -17,6 +18,11 @@ packages="
   libssl-dev
   libtbb-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev"
+
+# What a desktop has anyway, and Blender's module for Python is linked to.
+[ "${1:-}" != --blender ] || packages="$packages
+  python3-venv
+  libegl1 libgl1 libgomp1 libice6 libsm6 libx11-6 libxfixes3 libxi6 libxkbcommon0 libxrender1 libxxf86vm1"
 
 missing=""
 for package in $packages; do
@@ -35,6 +41,7 @@ if [ -n "$missing" ]; then
     apt-get install -y -qq --no-install-recommends $missing >/dev/null
 fi
 [ "${1:-}" = --packages ] && exit 0
+[ "${1:-}" != --blender ] || exec scripts/blender_wheels.sh "${2:-}"
 
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
 ninja -C build/release seedframe

@@ -5,6 +5,8 @@ import math
 
 import bpy
 
+import blender_versions
+
 SIDE_M = 4.0
 
 
@@ -72,7 +74,7 @@ def _principled(name, base=(0.7, 0.3, 0.1, 1), **inputs):
     node = material.node_tree.nodes["Principled BSDF"]
     node.inputs["Base Color"].default_value = base
     for key, value in inputs.items():
-        node.inputs[key.replace("_", " ").title()].default_value = value
+        blender_versions.principled_input(node, key.title()).default_value = value
     return material
 
 

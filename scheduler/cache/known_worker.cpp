@@ -78,17 +78,19 @@ auto fields_of(Ready& ready) {
 
 Result<BlenderInfo> known_blender(FrameCache* cache, const std::string& program) {
   if (cache == nullptr) return probe_blender(program);
-  const Result<fs::path> path = find_blender(program);
-  if (!path) return forward_error(path);
-  const std::string subject = fmt::format("version of {}, {}", path->string(), stamp_of(*path));
+  Result<BlenderProgram> found = find_blender(program);
+  if (!found) return forward_error(found);
+  if (!found->module.empty()) return probe_blender(program);  // is not started for that
+  const fs::path& path = found->path;
+  const std::string subject = fmt::format("version of {}, {}", path.string(), stamp_of(path));
   if (const auto said = cache->recall(subject)) {
     Result<BlenderInfo> info = parse_blender_version(*said);
     if (info) {
-      info->program = *path;
+      info->program = std::move(*found);
       return info;
     }
   }
-  Result<BlenderInfo> info = probe_blender(path->string());
+  Result<BlenderInfo> info = probe_blender(path.string());
   if (info) cache->remember(subject, "Blender " + info->version);
   return info;
 }
@@ -104,7 +106,7 @@ std::string worker_identity(const Json& facts, const WorkerOptions& options) {
   const auto add = [&text](const std::string& part) { text += part + '\0'; };
   for (const std::string& part :
        {canonical_json(of_all_threads), std::string(name_of(options.conditions.device)),
-        options.blender.string(), *preload, cpu,
+        options.blender.name(), *preload, cpu,
         stamp_of("/etc/ld.so.cache"),  // is written anew whenever a library of the system changes
         std::string(options.wrapper.empty() ? "" : "wrapped")}) {
     add(part);

@@ -5,12 +5,13 @@
 namespace seedframe {
 namespace fs = std::filesystem;
 
-Result<fs::path> find_ocio_config(const fs::path& blender, int major, int minor) {
+Result<fs::path> find_ocio_config(const BlenderInfo& blender) {
   std::error_code error;
-  const fs::path program = fs::canonical(blender, error);
-  const fs::path folder = program.parent_path();
+  const bool is_module = !blender.program.module.empty();
+  const fs::path folder =
+      is_module ? blender.program.module : fs::canonical(blender.program.path, error).parent_path();
   const fs::path prefix = folder.parent_path();
-  const std::string version = fmt::format("{}.{}", major, minor);
+  const std::string version = fmt::format("{}.{}", blender.major, blender.minor);
   const fs::path inside = fs::path("datafiles") / "colormanagement" / "config.ocio";
   const std::vector<fs::path> candidates = {folder / version / inside,
                                             prefix / "share" / "blender" / version / inside,
@@ -22,7 +23,7 @@ Result<fs::path> find_ocio_config(const fs::path& blender, int major, int minor)
       ErrorKind::kEnvironment,
       "no OpenColorIO config was found for {} (looked for {}): set image.ocio_config in the "
       "campaign's config",
-      blender.string(), candidates.front().string());
+      blender.program.name(), candidates.front().string());
 }
 
 }  // namespace seedframe

@@ -67,7 +67,7 @@ Result<Json> common_facts(const std::string& ocio_hash, const RunSetup& setup) {
                 {"libraries", library_versions()}, {"twin_isa", ray_tracing_isa()},
                 {"ocio_config_sha256", ocio_hash}, {"threads", worker.threads}};
   if (!setup.color) return facts;
-  const Result<std::string> program = sha256_of_file(worker.blender);
+  const Result<std::string> program = sha256_of(worker.blender);
   if (!program) return forward_error(program);
   const Result<std::string> scripts = hash_of_scripts(worker.scripts);
   if (!scripts) return forward_error(scripts);

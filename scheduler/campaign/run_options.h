@@ -22,15 +22,16 @@ struct RunOptions {
   /// Blender `workers` are the frames that are traced at once, and `threads` those of each.
   PoolOptions pool;
   WorkerOptions worker;
-  bool sandbox = false;        ///< see sandbox.h
-  bool no_cache = false;       ///< take no frame from the cache; frames are added all the same
-  double pause_limit_s = 600;  ///< to wait for room when the disk is full; 0: not at all
+  std::string blender = "blender";  ///< as find_blender takes it; becomes that of `worker`
+  bool sandbox = false;             ///< see sandbox.h
+  bool no_cache = false;            ///< take no frame from the cache; frames are added all the same
+  double pause_limit_s = 600;       ///< to wait for room when the disk is full; 0: not at all
   bool no_space_check = false;
   bool quiet = false;
 };
 
 struct RunSetup {
-  RunOptions options;   ///< with every choice made, and Blender's absolute path
+  RunOptions options;   ///< with every choice made, and Blender found
   BlenderInfo blender;  ///< of no meaning when nothing is rendered
   /// None: labels by geometry, and Blender is not needed.
   std::shared_ptr<const ColorManagement> color;

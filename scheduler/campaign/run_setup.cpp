@@ -58,8 +58,7 @@ Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
   WorkerOptions& worker = options.worker;
   const std::unique_ptr<FrameCache> cache =
       FrameCache::open(options.no_cache ? std::filesystem::path() : setup.cache);
-  Result<Renderer> renderer =
-      find_renderer(worker.blender.string(), settings.ocio_config, cache.get());
+  Result<Renderer> renderer = find_renderer(options.blender, settings.ocio_config, cache.get());
   if (!renderer) return forward_error(renderer);
   if (Status known = check_view(settings, *renderer->color); !known) return forward_error(known);
   if (Status possible = check_encoding(settings.image_encoding); !possible) {
@@ -67,8 +66,8 @@ Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
   }
   if (!renderer->blender.tested) {
     setup.notes.push_back(
-        fmt::format("Blender {} is not a version that Seedframe is tested with (3.4); going on",
-                    renderer->blender.version));
+        fmt::format("Blender {} is not a version that Seedframe is tested with ({}); going on",
+                    renderer->blender.version, tested_blender_versions()));
   }
   worker.blender = renderer->blender.program;
   worker.scripts = places.scripts;
@@ -102,8 +101,7 @@ Result<Renderer> find_renderer(const std::string& program,
   Result<BlenderInfo> blender = known_blender(cache, program);
   if (!blender) return forward_error(blender);
   const Result<std::filesystem::path> path =
-      ocio_config ? Result<std::filesystem::path>(*ocio_config)
-                  : find_ocio_config(blender->program, blender->major, blender->minor);
+      ocio_config ? Result<std::filesystem::path>(*ocio_config) : find_ocio_config(*blender);
   if (!path) return forward_error(path);
   Result<ColorManagement> color = ColorManagement::load(*path);
   if (!color) return forward_error(color);

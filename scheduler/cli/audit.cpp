@@ -12,6 +12,7 @@
 #include "base/files.h"
 #include "base/message_text.h"
 #include "cli/allow_option.h"
+#include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/progress.h"
@@ -143,9 +144,7 @@ void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
                    "folder for the report (default: audit/ in the campaign's)")
       ->type_name("DIR");
   add_tolerance_options(*verb, options.tolerance);
-  std::filesystem::path& blender = arguments->run.worker.blender;
-  verb->add_option("--blender", blender, "Blender to render with: a path, or a name in PATH")
-      ->default_str(blender.string());
+  add_blender_option(*verb, arguments->run.blender);
   add_allow_option(*verb, arguments->allowed);
   verb->add_flag("--quiet", arguments->run.quiet, "no progress");
   verb->add_flag("--json", arguments->json, "print report.json instead of a summary");

@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "campaign/run_setup.h"
+#include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
@@ -57,8 +58,7 @@ void add_bench_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("-o,--output", arguments->output, "folder for the tables and the plot")
       ->type_name("DIR")
       ->capture_default_str();
-  verb->add_option("--blender", arguments->blender, "Blender: a path, or a name in PATH")
-      ->capture_default_str();
+  add_blender_option(*verb, arguments->blender);
   verb->add_option("--width", arguments->width,
                    "of the pictures; the height is three quarters of it")
       ->check(CLI::Range(16, 4096))

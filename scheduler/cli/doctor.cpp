@@ -1,20 +1,25 @@
 // seedframe doctor: is everything here that rendering needs?
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
 
 #include "assets/asset_library.h"
 #include "base/canonical_json.h"
 #include "base/sha256.h"
 #include "campaign/color_config.h"
 #include "campaign/provenance.h"
+#include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
 #include "image/color_management.h"
+#include "render/blender_description.h"
 #include "render/blender_info.h"
 #include "render/sandbox.h"
 #include "scene/material_library.h"
@@ -24,11 +29,6 @@ namespace seedframe {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct DoctorArguments {
-  std::string blender = "blender";
-  bool json = false;
-};
 
 /// What was found, in order, and whether any of it was bad.
 class Findings {
@@ -53,15 +53,35 @@ class Findings {
   Json json_ = Json::array();
 };
 
+/// "CPU (AMD EPYC 7B13)", and the like.
+std::string text_of(const std::vector<BlenderDescription::Device>& devices) {
+  std::vector<std::string> each;
+  for (const auto& [kind, name] : devices) each.push_back(fmt::format("{} ({})", kind, name));
+  return fmt::format("{}", fmt::join(each, ", "));
+}
+
+void examine_abilities(const BlenderProgram& blender, Findings& findings) {
+  const auto can =
+      describe_blender(blender, seedframe_home() / "blender_scripts", worker_preload());
+  if (!can) return findings.bad("renders", can.error().message);
+  findings.good(
+      "renders",
+      fmt::format(
+          "on {}; kernels: Cycles' {}, Embree's {}; denoisers: {}", text_of(can->devices),
+          can->kernel, can->embree.empty() ? "unknown" : can->embree,
+          can->denoisers.empty() ? "none" : fmt::format("{}", fmt::join(can->denoisers, ", "))));
+}
+
 void examine_blender(const std::string& program, Findings& findings) {
   const Result<BlenderInfo> blender = probe_blender(program);
   if (!blender) {
     findings.bad("Blender", blender.error().message);
     return;
   }
-  findings.good("Blender", fmt::format("{} at {}{}", blender->version, blender->program.string(),
+  findings.good("Blender", fmt::format("{} at {}{}", blender->version, blender->program.name(),
                                        blender->tested ? "" : " (not a version we test with)"));
-  const auto ocio = find_ocio_config(blender->program, blender->major, blender->minor);
+  examine_abilities(blender->program, findings);
+  const auto ocio = find_ocio_config(*blender);
   if (!ocio) {
     findings.bad("colour", ocio.error().message);
     return;
@@ -73,6 +93,18 @@ void examine_blender(const std::string& program, Findings& findings) {
   } else {
     findings.bad("colour", color.error().message);
   }
+}
+
+/// What --blender can name: those that scripts/setup.sh has made.
+std::vector<std::string> modules_of_checkout() {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(seedframe_home() / "venv", error)) {
+    if (!entry.path().filename().string().starts_with("blender-")) continue;
+    found.push_back("python:" + entry.path().string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 void examine_home(Findings& findings) {
@@ -109,10 +141,24 @@ void examine_home(Findings& findings) {
   }
 }
 
+struct DoctorArguments {
+  std::string blender = "blender";
+  bool only_that = false;
+  bool json = false;
+
+  /// The one that was named, or all that there are.
+  std::vector<std::string> blenders() const {
+    std::vector<std::string> all = {blender};
+    if (only_that) return all;
+    for (std::string& each : modules_of_checkout()) all.push_back(std::move(each));
+    return all;
+  }
+};
+
 int examine(const DoctorArguments& arguments) {
   Findings findings(!arguments.json);
   findings.good("seedframe", SEEDFRAME_VERSION);
-  examine_blender(arguments.blender, findings);
+  for (const std::string& blender : arguments.blenders()) examine_blender(blender, findings);
   examine_home(findings);
   std::string libraries;
   const Json versions = library_versions();
@@ -136,12 +182,15 @@ int examine(const DoctorArguments& arguments) {
 void add_doctor_verb(CLI::App& app, const OnSelected& on_selected) {
   auto arguments = std::make_shared<DoctorArguments>();
   CLI::App* verb = app.add_subcommand("doctor", "what is installed, and whether it is enough");
-  verb->add_option("--blender", arguments->blender, "Blender to look at: a path, or a name in PATH")
-      ->capture_default_str();
+  CLI::Option* blender = add_blender_option(*verb, arguments->blender);
   verb->add_flag("--json", arguments->json, "print it as JSON");
-  verb->footer("Example: seedframe doctor --blender /opt/blender/blender");
-  verb->callback(
-      [arguments, on_selected] { on_selected([arguments] { return examine(*arguments); }); });
+  verb->footer(
+      "Without --blender it looks at the one in PATH and at those that scripts/setup.sh has made.\n"
+      "Example: seedframe doctor --blender /opt/blender/blender");
+  verb->callback([arguments, blender, on_selected] {
+    arguments->only_that = blender->count() > 0;
+    on_selected([arguments] { return examine(*arguments); });
+  });
 }
 
 }  // namespace seedframe

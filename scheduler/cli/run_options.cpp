@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/run_setup.h"
+#include "cli/blender_option.h"
 #include "cli/home.h"
 
 namespace seedframe {
@@ -26,9 +27,7 @@ CLI::Option* add_seconds(CLI::App& verb, const std::string& name, milliseconds& 
 
 void add_run_options(CLI::App& verb, RunOptions& options) {
   PoolOptions& pool = options.pool;
-  verb.add_option("--blender", options.worker.blender,
-                  "Blender to render with: a path, or a name in PATH")
-      ->default_str(options.worker.blender.string());
+  add_blender_option(verb, options.blender);
   verb.add_option("--workers", pool.workers, "Blender processes (default: chosen)")
       ->check(CLI::Range(1, 256));
   verb.add_option("--threads", options.worker.threads, "threads of each (default: chosen)")

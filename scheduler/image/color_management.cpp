@@ -5,13 +5,17 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include "base/files.h"
 #include "base/nearest_name.h"
 #include "base/portable_math.h"
 #include "base/sha256.h"
+#include "image/color_config_level.h"
 #include "image/color_tables.h"
 
 namespace seedframe {
@@ -31,6 +35,7 @@ struct Names {
   std::vector<std::string> displays;
   std::map<std::string, std::vector<std::string>> views;  ///< by display
   std::vector<std::string> looks = {"None"};
+  std::set<std::string> left_out;  ///< views that need a later OpenColorIO
 };
 
 Names read_names(const OCIO::Config& config) {
@@ -133,14 +138,14 @@ ColorManagement::ColorManagement(ColorManagement&&) noexcept = default;
 ColorManagement& ColorManagement::operator=(ColorManagement&&) noexcept = default;
 
 Result<ColorManagement> ColorManagement::load(const std::filesystem::path& ocio_config) {
-  const Result<std::string> hash = sha256_of_file(ocio_config);
-  if (!hash)
-    return fail(ErrorKind::kInput, "cannot read the OCIO config: {}", hash.error().message);
+  const Result<std::string> text = read_file(ocio_config);
+  if (!text)
+    return fail(ErrorKind::kInput, "cannot read the OCIO config: {}", text.error().message);
   auto state = std::make_unique<State>();
-  state->hash = *hash;
+  state->hash = sha256_hex(*text);
   state->path = ocio_config.string();
   try {
-    const auto config = OCIO::Config::CreateFromFile(ocio_config.c_str())->createEditableCopy();
+    auto [config, left_out] = read_color_config(*text, ocio_config.parent_path());
     // OpenColorIO would keep every processor that it ever made, one for each gamma.
     config->setProcessorCacheFlags(OCIO::PROCESSOR_CACHE_OFF);
     const Status own_tables = check_color_tables(*config, ocio_config.parent_path());
@@ -149,6 +154,7 @@ Result<ColorManagement> ColorManagement::load(const std::filesystem::path& ocio_
     }
     config->validate();
     state->names = read_names(*config);
+    state->names.left_out = std::move(left_out);
     state->config = config;
   } catch (const std::exception& exception) {
     return fail(ErrorKind::kInput, "{} is not an OCIO config that OpenColorIO {} can read: {}",
@@ -161,6 +167,13 @@ Status ColorManagement::check(const ImageSettings& settings) const {
   const Names& names = state_->names;
   if (Status known = check_name("display", settings.display, names.displays); !known) return known;
   const std::vector<std::string>& views = names.views.at(settings.display);
+  if (names.left_out.count(settings.view) > 0) {
+    return fail(
+        ErrorKind::kInput,
+        "the view '{}' of the OCIO config needs a later OpenColorIO than {}, which is here; "
+        "choose another one",
+        settings.view, OCIO::GetVersion());
+  }
   if (Status known = check_name("view", settings.view, views); !known) return known;
   if (has_look(settings)) {
     if (Status known = check_name("look", settings.look, names.looks); !known) return known;

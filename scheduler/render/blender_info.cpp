@@ -1,56 +1,34 @@
 #include "render/blender_info.h"
 
+#include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <regex>
-#include <system_error>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "render/child_process.h"
 
 namespace seedframe {
-namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kRemedy = "install Blender 3.3 or newer, or name it with --blender PATH";
 constexpr auto kProbeTimeout = std::chrono::seconds(60);  // a cold disk is slow
 
-bool is_program(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
+struct Release {
+  int major, minor;
+};
+constexpr std::array<Release, 4> kTested = {{{3, 4}, {4, 2}, {4, 5}, {5, 0}}};
+
+Result<std::string> version_text(const BlenderProgram& program) {
+  if (program.module.empty()) {
+    return output_of({program.path.string(), "--version"}, kProbeTimeout);
+  }
+  const Result<std::string> version = module_version(program);
+  if (!version) return version;
+  return "Blender " + *version;
 }
 
 }  // namespace
-
-Result<fs::path> find_blender(const std::string& program) {
-  if (program.find('/') != std::string::npos) {
-    std::error_code error;
-    const fs::path path = fs::absolute(program, error);
-    if (!fs::exists(path, error)) {
-      return fail(ErrorKind::kEnvironment, "Blender not found: there is no {}; {}", program,
-                  kRemedy);
-    }
-    if (!is_program(path)) {
-      return fail(ErrorKind::kEnvironment, "{} is not a program that may be executed; {}", program,
-                  kRemedy);
-    }
-    return path;
-  }
-  const char* variable = std::getenv("PATH");
-  std::string folders = variable == nullptr ? "/usr/bin:/bin" : variable;
-  for (std::size_t begin = 0; begin <= folders.size();) {
-    const std::size_t end = std::min(folders.find(':', begin), folders.size());
-    const fs::path path = fs::path(folders.substr(begin, end - begin)) / program;
-    if (is_program(path)) return fs::absolute(path);
-    begin = end + 1;
-  }
-  return fail(ErrorKind::kEnvironment, "Blender not found: no program '{}' in PATH; {}", program,
-              kRemedy);
-}
 
 Result<BlenderInfo> parse_blender_version(const std::string& output) {
   // Libraries may have warned before Blender speaks.
@@ -69,21 +47,35 @@ Result<BlenderInfo> parse_blender_version(const std::string& output) {
   if (info.major < 3 || (info.major == 3 && info.minor < 3)) {
     return fail(ErrorKind::kEnvironment, "Blender {} is too old; {}", info.version, kRemedy);
   }
-  info.tested = info.major == 3 && info.minor == 4;
+  info.tested = std::any_of(kTested.begin(), kTested.end(), [&](const Release& each) {
+    return each.major == info.major && each.minor == info.minor;
+  });
   return info;
 }
 
-Result<BlenderInfo> probe_blender(const std::string& program) {
-  const Result<fs::path> path = find_blender(program);
-  if (!path) return forward_error(path);
-  const Result<std::string> output = output_of({path->string(), "--version"}, kProbeTimeout);
-  if (!output) return forward_error(output);
-  Result<BlenderInfo> info = parse_blender_version(*output);
+Result<BlenderInfo> probe_blender(const std::string& name) {
+  Result<BlenderProgram> program = find_blender(name);
+  if (!program) return forward_error(program);
+  const Result<std::string> text = version_text(*program);
+  if (!text) return forward_error(text);
+  Result<BlenderInfo> info = parse_blender_version(*text);
   if (!info) {
-    return fail(ErrorKind::kEnvironment, "{}: {}", path->string(), info.error().message);
+    return fail(ErrorKind::kEnvironment, "{}: {}", program->name(), info.error().message);
   }
-  info->program = *path;
+  info->program = std::move(*program);
   return info;
+}
+
+std::string tested_blender_versions() {
+  std::string text;
+  for (std::size_t i = 0; i < kTested.size(); ++i) {
+    text += fmt::format("{}{}.{}",
+                        i == 0                    ? ""
+                        : i + 1 == kTested.size() ? " and "
+                                                  : ", ",
+                        kTested[i].major, kTested[i].minor);
+  }
+  return text;
 }
 
 }  // namespace seedframe

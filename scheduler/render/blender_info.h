@@ -1,32 +1,33 @@
 // Which Blender there is.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "base/error.h"
+#include "render/blender_program.h"
 
 namespace seedframe {
 
 struct BlenderInfo {
-  std::filesystem::path program;  ///< absolute
-  std::string version;            ///< "3.4.1"
+  BlenderProgram program;
+  std::string version;  ///< "3.4.1"
   int major = 0;
   int minor = 0;
   int patch = 0;
-  /// Seedframe's own tests run with this version (3.4); others from 3.3 on are expected to work.
+  /// Seedframe's own tests run with this version (docs/blender_versions.md); others from 3.3 on are
+  /// expected to work.
   bool tested = false;
 };
 
-/// The program by that path, or of that name in PATH, absolute. kEnvironment errors: not found, not
-/// executable.
-Result<std::filesystem::path> find_blender(const std::string& program);
-
-/// Finds `program` (a path, or a name to look up in PATH) and asks it for its version. kEnvironment
-/// errors: not found, not executable, not Blender, older than 3.3; each says what to do.
-Result<BlenderInfo> probe_blender(const std::string& program = "blender");
+/// Finds Blender (see find_blender) and asks it for its version. A module is not started for that.
+/// kEnvironment errors: not found, not executable, not Blender, older than 3.3; each says what to
+/// do.
+Result<BlenderInfo> probe_blender(const std::string& name = "blender");
 
 /// Reads the first line of `blender --version`: "Blender 3.4.1", "Blender 4.2.0 LTS".
 Result<BlenderInfo> parse_blender_version(const std::string& output);
+
+/// "3.4, 4.2, 4.5 and 5.0": those that `tested` is true of.
+std::string tested_blender_versions();
 
 }  // namespace seedframe

@@ -164,14 +164,14 @@ std::string describe_wait_status(const std::optional<int>& status) {
 }
 
 Result<std::string> output_of(const std::vector<std::string>& arguments,
-                              std::chrono::milliseconds longest) {
+                              std::chrono::milliseconds longest, const Variables& changes) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
     return fail(ErrorKind::kEnvironment, "cannot make a pipe: {}", std::strerror(errno));
   }
   ChildCommand command;
   command.arguments = arguments;
-  command.environment = worker_environment({});
+  command.environment = worker_environment(changes);
   command.output = ends[1];
   const Result<pid_t> child = start_child(command);
   close(ends[1]);
@@ -194,8 +194,7 @@ Result<std::string> output_of(const std::vector<std::string>& arguments,
   return text;
 }
 
-std::vector<std::string> worker_environment(
-    const std::vector<std::pair<std::string, std::string>>& changes) {
+std::vector<std::string> worker_environment(const Variables& changes) {
   // A Blender that uses the system's Python looks for that Python's home along PATH: an active
   // virtual environment, conda or pyenv would hide numpy from it.
   constexpr std::array<std::string_view, 4> kDropped = {"PATH=", "PYTHON", "BLENDER_USER_",

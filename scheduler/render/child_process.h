@@ -51,14 +51,16 @@ std::optional<int> kill_child(pid_t child);
 /// "exited with status 3", "was killed by signal 11 (Segmentation fault)".
 std::string describe_wait_status(const std::optional<int>& status);
 
-/// What a program prints, stdout and stderr together; kEnvironment errors when it cannot be
-/// started, takes longer or ends with another status than 0.
+/// Variables of the environment and their values.
+using Variables = std::vector<std::pair<std::string, std::string>>;
+
+/// What a program prints in a worker's environment, stdout and stderr together; kEnvironment errors
+/// when it cannot be started, takes longer or ends with another status than 0.
 Result<std::string> output_of(const std::vector<std::string>& arguments,
-                              std::chrono::milliseconds longest);
+                              std::chrono::milliseconds longest, const Variables& changes = {});
 
 /// Our environment without what would change how Blender or its Python behave (PATH, PYTHON*,
 /// BLENDER_USER_*, OCIO), with `changes` on top.
-std::vector<std::string> worker_environment(
-    const std::vector<std::pair<std::string, std::string>>& changes);
+std::vector<std::string> worker_environment(const Variables& changes);
 
 }  // namespace seedframe

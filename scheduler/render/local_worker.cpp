@@ -65,25 +65,12 @@ struct Pipes {
 std::vector<std::string> arguments_of(const WorkerOptions& options) {
   const std::string channel = std::to_string(kChildChannel);
   std::vector<std::string> arguments = options.wrapper;
-  const std::vector<std::string> own = {options.blender.string(),
-                                        "--background",
-                                        "--factory-startup",
-                                        "--disable-autoexec",
-                                        "-noaudio",
-                                        "--threads",
-                                        std::to_string(options.threads),
-                                        "--python-exit-code",
-                                        "3",
-                                        "--python",
-                                        (options.scripts / "render_worker.py").string(),
-                                        "--",
-                                        "--read-fd",
-                                        channel,
-                                        "--write-fd",
-                                        channel,
-                                        "--cpus",
-                                        fmt::format("{}", fmt::join(allowed_cpus(), ","))};
-  arguments.insert(arguments.end(), own.begin(), own.end());
+  for (std::string& each : blender_command(options.blender, options.scripts, options.threads,
+                                           options.scripts / "render_worker.py")) {
+    arguments.push_back(std::move(each));
+  }
+  arguments.insert(arguments.end(), {"--read-fd", channel, "--write-fd", channel, "--cpus",
+                                     fmt::format("{}", fmt::join(allowed_cpus(), ","))});
   if (options.conditions.device != RenderDevice::kCpu) {
     arguments.insert(arguments.end(), {"--device", name_of(options.conditions.device)});
   }

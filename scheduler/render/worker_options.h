@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "render/blender_program.h"
 #include "render/child_process.h"
 #include "render/memory.h"
 #include "render/worker_conditions.h"
@@ -15,9 +16,9 @@
 namespace seedframe {
 
 struct WorkerOptions {
-  std::filesystem::path blender = "blender";  ///< to be started: absolute (BlenderInfo::program)
-  std::filesystem::path scripts;              ///< the folder blender_scripts/
-  std::filesystem::path preload;              ///< see environment_of; empty: nothing is
+  BlenderProgram blender;         ///< to be started (BlenderInfo::program)
+  std::filesystem::path scripts;  ///< the folder blender_scripts/
+  std::filesystem::path preload;  ///< see environment_of; empty: nothing is
   int threads = 1;
   WorkerConditions conditions;
   /// Set in a worker's environment on top of worker_environment and environment_of.

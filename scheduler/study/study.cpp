@@ -64,19 +64,9 @@ Status run_blender(const StudySetting& setting, const Study::Tools& tools, const
   if (output < 0) return fail(ErrorKind::kEnvironment, "cannot write {}", log.string());
   const auto changes = environment_of({setting.kernels, setting.persistent_data}, tools.preload);
   ChildCommand command;
-  command.arguments = {tools.blender.program.string(),
-                       "--background",
-                       "--factory-startup",
-                       "--disable-autoexec",
-                       "-noaudio",
-                       "--threads",
-                       std::to_string(setting.threads),
-                       "--python-exit-code",
-                       "3",
-                       "--python",
-                       (tools.scripts / "study/render_study.py").string(),
-                       "--",
-                       plan.string()};
+  command.arguments = blender_command(tools.blender.program, tools.scripts, setting.threads,
+                                      tools.scripts / "study/render_study.py");
+  command.arguments.push_back(plan.string());
   command.environment = worker_environment({changes.begin(), changes.end()});
   command.output = output;
   if (setting.one_cpu) command.cpu = allowed_cpus().front();

@@ -17,7 +17,7 @@ class KnownWorkerTest : public ::testing::Test {
   void SetUp() override {
     cache_ = FrameCache::open(scratch_ / "cache");
     ASSERT_NE(cache_, nullptr);
-    options_.blender = "/opt/blender";
+    options_.blender.path = "/opt/blender";
   }
   std::string identity() const { return worker_identity(facts_, options_); }
 
@@ -83,9 +83,9 @@ TEST_F(KnownWorkerTest, WhateverDecidesMakesItAnotherWorker) {
   facts_["blender_sha256"] = "other";
   EXPECT_NE(identity(), before) << "another Blender";
   facts_["blender_sha256"] = "b";
-  options_.blender = "/opt/other/blender";
+  options_.blender.path = "/opt/other/blender";
   EXPECT_NE(identity(), before) << "the same beside other libraries";
-  options_.blender = "/opt/blender";
+  options_.blender.path = "/opt/blender";
   options_.conditions.kernels = kernels_of(Isa::kAvx);
   EXPECT_NE(identity(), before) << "pinned kernels";
   options_.conditions.kernels.reset();
@@ -137,7 +137,7 @@ TEST_F(KnownWorkerTest, ABlenderThatIsKnownIsNotStarted) {
     const Result<BlenderInfo> info = known_blender(cache_.get(), blender);
     ASSERT_TRUE(info) << info.error().message;
     EXPECT_EQ(info->version, "3.4.1");
-    EXPECT_EQ(info->program, blender);
+    EXPECT_EQ(info->program.path, blender);
     EXPECT_TRUE(info->tested);
   }
   EXPECT_EQ(times_asked(), 1u);

@@ -29,7 +29,7 @@ class RunSetupTest : public ::testing::Test {
     const fs::path path = scratch_ / "blender";
     EXPECT_TRUE(write_file(path, "#!/bin/sh\necho Blender " + version + "\n"));
     fs::permissions(path, fs::perms::owner_all);
-    options_.worker.blender = path;
+    options_.blender = path;
   }
   RunSetup set_up(std::int64_t frames = 100) const {
     Result<RunSetup> setup = set_up_run(options_, places_, settings_, frames);
@@ -51,7 +51,7 @@ class RunSetupTest : public ::testing::Test {
 TEST_F(RunSetupTest, ARenderingHasBlenderItsColoursAndItsScripts) {
   const RunSetup setup = set_up();
   EXPECT_EQ(setup.blender.version, "3.4.1");
-  EXPECT_EQ(setup.options.worker.blender, scratch_ / "blender");
+  EXPECT_EQ(setup.options.worker.blender.path, scratch_ / "blender");
   EXPECT_EQ(setup.options.worker.scripts, places_.scripts);
   EXPECT_EQ(setup.options.worker.preload, places_.preload);
   EXPECT_NE(setup.color, nullptr);
@@ -88,7 +88,7 @@ TEST_F(RunSetupTest, OfABlenderThatIsNotTestedTheUserIsTold) {
 }
 
 TEST_F(RunSetupTest, WithoutBlenderThereIsNone) {
-  options_.worker.blender = scratch_ / "nothing";
+  options_.blender = scratch_ / "nothing";
   EXPECT_EQ(error().kind, ErrorKind::kEnvironment);
   EXPECT_THAT(error().message, HasSubstr("Blender not found"));
 }
@@ -118,7 +118,7 @@ TEST_F(RunSetupTest, FramesThatPromiseNothingAreNotCached) {
 
 TEST_F(RunSetupTest, LabelsByGeometryNeedNoBlender) {
   settings_.labels = LabelSource::kTwin;
-  options_.worker.blender = scratch_ / "nothing";
+  options_.blender = scratch_ / "nothing";
   fs::remove(places_.preload);
   const RunSetup setup = set_up();
   EXPECT_EQ(setup.color, nullptr);

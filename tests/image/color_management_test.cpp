@@ -221,5 +221,87 @@ TEST_F(ColorManagementTest, ThreadsShareIt) {
   EXPECT_EQ(wrong, 0);
 }
 
+// A level that no OpenColorIO has: one view can be made of it, the others hang on a transform that
+// nobody has built in.
+constexpr const char* kOfTheFuture = R"(ocio_profile_version: 9.9
+roles: {scene_linear: linear, default: linear}
+displays:
+  screen:
+    - !<View> {name: Plain, colorspace: linear}
+    - !<View> {name: Root, colorspace: root}
+    - !<View> {name: New, colorspace: of tomorrow}
+    - !<View> {name: Made of it, colorspace: behind}
+  wall:
+    - !<View> {name: Plain, colorspace: of tomorrow}
+active_displays: [screen, wall]
+active_views: [Plain, Root, New, Made of it]
+looks:
+  - !<Look>
+    name: New look
+    process_space: tomorrow
+    transform: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}
+colorspaces:
+  - !<ColorSpace>
+    name: linear
+    bitdepth: 32f
+    description: |
+      Two lines: of text,
+      # and no comment
+  - !<ColorSpace>
+    name: behind
+    from_reference: !<GroupTransform>
+      children:
+        - !<ColorSpaceTransform> {src: linear, dst: tomorrow}
+        - !<ExponentTransform> {value: [0.5, 0.5, 0.5, 1]}
+  - !<ColorSpace>
+    name: of tomorrow
+    aliases: [tomorrow]
+    from_reference: !<GroupTransform>
+      children:
+        - !<BuiltinTransform> {style: "NOBODY - HAS_THIS"}
+  - !<ColorSpace>
+    name: root
+    from_reference: !<ExponentTransform> {value: [0.5, 0.5, 0.5, 1]}
+)";
+
+TEST_F(ColorManagementTest, OfAConfigOfALaterLevelWhatTheLibraryHasMeansTheSame) {
+  const ColorManagement now = load();
+  ASSERT_TRUE(write_file(folder_ / "later.ocio", kOfTheFuture));
+  const auto later = ColorManagement::load(folder_ / "later.ocio");
+  ASSERT_TRUE(later) << later.error().message;
+  EXPECT_EQ(later->config_hash(), sha256_hex(kOfTheFuture));
+  Image<float> linear(3, 1, 4);
+  linear.values = {0.25F, 0.5F, 0.75F, 1.0F, 0.01F, 2.0F, 0.9F, 1.0F, 0.0F, 1.0F, 0.1F, 1.0F};
+  for (const char* view : {"Plain", "Root"}) {
+    const ImageSettings settings{"screen", view, "None", 0.0, 1.0};
+    EXPECT_EQ(later->apply(linear, settings)->values, now.apply(linear, settings)->values) << view;
+  }
+}
+
+TEST_F(ColorManagementTest, WhatNeedsALaterLibraryIsNamedWhenItIsAskedFor) {
+  ASSERT_TRUE(write_file(folder_ / "later.ocio", kOfTheFuture));
+  const auto later = ColorManagement::load(folder_ / "later.ocio");
+  ASSERT_TRUE(later);
+  for (const char* view : {"New", "Made of it"}) {
+    const Status checked = later->check({"screen", view, "None", 0.0, 1.0});
+    ASSERT_FALSE(checked) << view;
+    EXPECT_THAT(checked.error().message, HasSubstr("needs a later OpenColorIO")) << view;
+  }
+  EXPECT_FALSE(later->check({"wall", "Plain", "None", 0.0, 1.0}));
+  EXPECT_THAT(later->check({"screen", "Plain", "New look", 0.0, 1.0}).error().message,
+              HasSubstr("no look 'New look'"));
+}
+
+TEST_F(ColorManagementTest, AConfigOfALaterLevelThatIsNoConfigIsRefused) {
+  for (const char* text : {"ocio_profile_version: 9.9\n[", "ocio_profile_version: 9.9\ndisplays: 3",
+                           "ocio_profile_version: 9.9\ndisplays: {screen: [{}]}",
+                           "ocio_profile_version: 9.9\ncolorspaces: [3]"}) {
+    ASSERT_TRUE(write_file(folder_ / "bad.ocio", text));
+    const auto bad = ColorManagement::load(folder_ / "bad.ocio");
+    ASSERT_FALSE(bad) << text;
+    EXPECT_EQ(bad.error().kind, ErrorKind::kInput);
+  }
+}
+
 }  // namespace
 }  // namespace seedframe

@@ -40,7 +40,7 @@ TEST(BlenderInfo, RefusesOldVersionsAndOtherPrograms) {
 TEST(BlenderInfo, FindsTheProgramAndAsksIt) {
   const auto info = probe_blender(kFake);
   ASSERT_TRUE(info) << info.error().message;
-  EXPECT_EQ(info->program, kFake);
+  EXPECT_EQ(info->program.path, kFake);
   EXPECT_EQ(info->version, "3.4.1");
 }
 

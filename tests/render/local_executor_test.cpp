@@ -73,7 +73,7 @@ TEST_F(LocalPoolTest, TheWorkersEnvironmentIsSanitised) {
   const auto script = folder / "env_blender";
   std::ofstream(script) << "#!/bin/sh\nenv\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  worker.blender = script;
+  worker.blender.path = script;
   worker.environment["CYCLES_CPU_NO_AVX2"] = "1";
   make_pool();
   const auto summary = run(1);
@@ -96,7 +96,7 @@ TEST_F(LocalPoolTest, WorkersInheritNoOtherFile) {
   const auto script = folder / "ls_blender";
   std::ofstream(script) << "#!/bin/sh\nls -l /proc/$$/fd\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  worker.blender = script;
+  worker.blender.path = script;
   make_pool();
   EXPECT_FALSE(run(1));
   close(secret);
@@ -117,7 +117,7 @@ TEST_F(LocalPoolTest, ASandboxedWorkerWritesOnlyWhereItMayAndHasNoNetwork) {
                         << "cat /proc/net/dev | grep -c : \n"
                         << "echo process $$\nexit 1\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  worker.blender = script;
+  worker.blender.path = script;
   worker.wrapper = sandbox_arguments(folder / "work");
   make_pool();
   EXPECT_FALSE(run(1));
@@ -240,7 +240,7 @@ TEST_F(LocalPoolTest, AHangingStartCountsAsAFailedOne) {
 }
 
 TEST_F(LocalPoolTest, AProgramThatCannotBeStartedIsNamed) {
-  worker.blender = folder / "no-blender";
+  worker.blender.path = folder / "no-blender";
   make_pool();
   const auto summary = run(1);
   ASSERT_FALSE(summary);

@@ -19,7 +19,7 @@ class LocalPoolTest : public testing::Test {
  protected:
   LocalPoolTest() {
     client = std::make_unique<RecordingClient>(folder);
-    worker.blender = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
+    worker.blender.path = SEEDFRAME_HOME "/tests/fake_blender/fake_blender.py";
     worker.scripts = SEEDFRAME_HOME "/blender_scripts";
     worker.log_path = [this](int number) { return folder / fmt::format("worker-{}.log", number); };
     // Long enough for a busy machine: only a test that wants a timeout sets a short one.

@@ -90,7 +90,17 @@ class CpuKernelTest(unittest.TestCase):
         self.assertEqual(cpu_kernel.choose(self.MODERN, {"CYCLES_CPU_NO_SSE41": ""}, (3, 4, 1)), "sse3")
 
     def test_blender_4_has_fewer_kernels(self):
-        self.assertEqual(cpu_kernel.choose(self.MODERN - {"AVX2"}, {}, (4, 2, 0)), "sse41")
+        self.assertEqual(cpu_kernel.choose(self.MODERN, {}, (4, 0, 2)), "avx2")
+        self.assertEqual(cpu_kernel.choose(self.MODERN - {"AVX2"}, {}, (4, 1, 1)), "sse41")
+        self.assertEqual(cpu_kernel.choose({"SSE42", "AVX2"}, {}, (4, 2, 23)), "avx2")
+        self.assertEqual(cpu_kernel.choose({"SSE42", "AVX2"}, {"CYCLES_CPU_NO_AVX2": ""}, (4, 2, 23)), "sse42")
+        self.assertEqual(cpu_kernel.choose({"SSE42", "AVX2"}, {"CYCLES_CPU_NO_SSE42": ""}, (4, 2, 23)), "generic")
+
+    def test_later_ones_begin_with_sse42_and_do_not_list_it(self):
+        for version in ((4, 5, 15), (5, 0, 1), (6, 0, 0)):
+            self.assertEqual(cpu_kernel.choose({"AVX2"}, {}, version), "avx2")
+            self.assertEqual(cpu_kernel.choose(set(), {}, version), "sse42")
+            self.assertEqual(cpu_kernel.choose({"AVX2"}, {"CYCLES_CPU_NO_AVX2": ""}, version), "sse42")
 
 
 class BoundedCacheTest(unittest.TestCase):

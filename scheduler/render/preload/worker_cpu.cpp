@@ -10,10 +10,12 @@
 // too.
 #include <dlfcn.h>
 #include <immintrin.h>
+#include <link.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
 
 namespace {
 
@@ -31,8 +33,51 @@ class Hash {
   uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-/// As Embree names them, best first; what Embree 3.13 itself asks of a CPU for each.
-const char* best_embree_isa() {
+/// The name of the library in which Embree lies, as the loader knows it.
+struct EmbreeLibrary {
+  char path[4096] = "";
+};
+
+int find_embree(dl_phdr_info* library, size_t, void* found) {
+  if (library->dlpi_name == nullptr || strstr(library->dlpi_name, "/libembree") == nullptr) {
+    return 0;
+  }
+  snprintf(static_cast<EmbreeLibrary*>(found)->path, sizeof(EmbreeLibrary::path), "%s",
+           library->dlpi_name);
+  return 1;
+}
+
+/// A function of Embree; null if there is no Embree. The module bpy loads it for itself alone,
+/// where RTLD_NEXT does not look.
+void* embree_function(const char* name) {
+  if (void* next = dlsym(RTLD_NEXT, name)) return next;
+  EmbreeLibrary library;
+  if (dl_iterate_phdr(find_embree, &library) == 0) return nullptr;
+  void* handle = dlopen(library.path, RTLD_LAZY | RTLD_NOLOAD);  // is never closed: it is in use
+  return handle == nullptr ? nullptr : dlsym(handle, name);
+}
+
+using NewDevice = void* (*)(const char*);
+
+/// Whether this Embree was built with kernels for AVX-512, which that of the module bpy was not. Of
+/// its device's properties only that of rays by 16 depends on it.
+bool embree_has_avx512() {
+  constexpr int kNativeRay16Supported = 34;  // RTC_DEVICE_PROPERTY_… of Embree 3 and 4
+  using GetProperty = ssize_t (*)(void*, int);
+  using Release = void (*)(void*);
+  const auto make = reinterpret_cast<NewDevice>(embree_function("rtcNewDevice"));
+  const auto property = reinterpret_cast<GetProperty>(embree_function("rtcGetDeviceProperty"));
+  const auto release = reinterpret_cast<Release>(embree_function("rtcReleaseDevice"));
+  if (make == nullptr || property == nullptr || release == nullptr) return true;
+  void* device = make("isa=avx512");
+  if (device == nullptr) return true;
+  const bool has = property(device, kNativeRay16Supported) != 0;
+  release(device);
+  return has;
+}
+
+/// As Embree names them, best first; what Embree 3.13 and 4 themselves ask of a CPU for each.
+const char* best_of_cpu() {
   __builtin_cpu_init();
   const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                     __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
@@ -45,6 +90,16 @@ const char* best_embree_isa() {
   if (__builtin_cpu_supports("avx")) return "avx";
   if (__builtin_cpu_supports("sse4.2")) return "sse4.2";
   return "sse2";
+}
+
+const char* best_embree_isa() {
+  const char* best = best_of_cpu();
+  if (strcmp(best, "avx512") != 0) return best;
+  static int has = -1;  // several threads may find out at once, and find the same
+  if (__atomic_load_n(&has, __ATOMIC_RELAXED) < 0) {
+    __atomic_store_n(&has, embree_has_avx512() ? 1 : 0, __ATOMIC_RELAXED);
+  }
+  return __atomic_load_n(&has, __ATOMIC_RELAXED) == 1 ? best : "avx2";
 }
 
 }  // namespace
@@ -78,9 +133,8 @@ uint64_t seedframe_reciprocals() {
 
 /// Embree's, with the choice of kernels added to what the caller configures.
 void* rtcNewDevice(const char* config) {  // NOLINT(readability-identifier-naming): Embree's name
-  using NewDevice = void* (*)(const char*);
-  const NewDevice original = reinterpret_cast<NewDevice>(dlsym(RTLD_NEXT, "rtcNewDevice"));
-  if (original == nullptr) return nullptr;
+  const auto original = reinterpret_cast<NewDevice>(embree_function("rtcNewDevice"));
+  if (original == nullptr) return nullptr;  // nobody calls it then
   char text[512];
   const bool some = config != nullptr && *config != '\0';
   const int length = snprintf(text, sizeof text, "%s%sisa=%s", some ? config : "", some ? "," : "",
