@@ -59,6 +59,27 @@ def principled_input(node, name):
     return node.inputs[name] if name in node.inputs else node.inputs[_PRINCIPLED_SINCE_4_0[name]]
 
 
+def set_loop_totals(mesh, totals):
+    """How many corners each polygon has."""
+    polygons = mesh.polygons
+    if not polygons[0].bl_rna.properties["loop_total"].is_readonly:  # 3.6 finds it by itself
+        polygons.foreach_set("loop_total", totals)
+
+
+def sharpen(mesh, angle):
+    """Makes edges sharp whose faces are at more than an angle to each other."""
+    if hasattr(mesh, "set_sharp_from_angle"):  # 4.1
+        mesh.set_sharp_from_angle(angle=angle)
+        return
+    # With auto smooth on, Cycles would split the mesh at its sharp edges anew for each frame, which takes as
+    # long as all its other work on it. Split once, smooth shading gives the same picture.
+    mesh.use_auto_smooth = True
+    mesh.auto_smooth_angle = angle
+    mesh.calc_normals_split()
+    mesh.split_faces()
+    mesh.use_auto_smooth = False
+
+
 def set_multilayer_file(image_settings):
     """One part that holds all passes."""
     if hasattr(image_settings, "media_type"):  # 5.0

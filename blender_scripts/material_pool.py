@@ -11,15 +11,11 @@ import collections
 
 import bpy
 
+from blender_versions import principled_input
 from bounded_cache import BoundedCache
 
 MAX_LOOKS = 2_000  # of all trees that are kept
 TEXTURES = ("alpha", "color", "metallic", "normal", "roughness")
-_SOCKET_IN_4_0 = {
-    "Specular": "Specular IOR Level",
-    "Transmission": "Transmission Weight",
-    "Clearcoat": "Coat Weight",
-}
 _SCALARS = {
     "metallic": "Metallic",
     "roughness": "Roughness",
@@ -185,7 +181,7 @@ class _Tree:
         textures = {use: self._add_texture() for use in structure}
         self._textures.append(textures)
         for name in _SCALARS:
-            socket = _input(principled, _SCALARS[name])
+            socket = principled_input(principled, _SCALARS[name])
             if name in textures:
                 self._link(textures[name].outputs["Color"], socket)
             else:
@@ -214,8 +210,3 @@ class _Tree:
         texture.extension = "REPEAT"
         self._link(self._uv, texture.inputs["Vector"])
         return texture
-
-
-def _input(principled, name):
-    inputs = principled.inputs
-    return inputs[name] if name in inputs else inputs[_SOCKET_IN_4_0[name]]

@@ -6,6 +6,7 @@ import os
 import bpy
 import numpy
 
+import blender_versions
 from bounded_cache import BoundedCache
 
 MAX_TRIANGLES = 20_000_000  # of all cached meshes; about 100 bytes each
@@ -83,8 +84,7 @@ def _fill(mesh, buffer):
     mesh.vertices.foreach_set("co", buffer["positions"])
     mesh.loops.foreach_set("vertex_index", buffer["corners"].ravel())
     mesh.polygons.foreach_set("loop_start", numpy.arange(0, 3 * triangles, 3, dtype=numpy.int32))
-    if not bpy.types.MeshPolygon.bl_rna.properties["loop_total"].is_readonly:  # before Blender 3.6
-        mesh.polygons.foreach_set("loop_total", numpy.full(triangles, 3, dtype=numpy.int32))
+    blender_versions.set_loop_totals(mesh, numpy.full(triangles, 3, dtype=numpy.int32))
     mesh.uv_layers.new(name="UVMap", do_init=False).data.foreach_set("uv", buffer["uvs"])
     for _ in range(buffer["slots"]):
         mesh.materials.append(None)  # each frame sets its own
@@ -93,17 +93,4 @@ def _fill(mesh, buffer):
     mesh.polygons.foreach_set("use_smooth", numpy.full(triangles, smooth, dtype=bool))
     mesh.update(calc_edges=True)
     if 0 < buffer["smooth_angle"] < math.pi:
-        _sharpen(mesh, buffer["smooth_angle"])
-
-
-def _sharpen(mesh, angle):
-    if hasattr(mesh, "set_sharp_from_angle"):  # Blender 4.1
-        mesh.set_sharp_from_angle(angle=angle)
-        return
-    # With auto smooth on, Cycles would split the mesh at its sharp edges anew for each frame, which takes as
-    # long as all its other work on it. Split once, smooth shading gives the same picture.
-    mesh.use_auto_smooth = True
-    mesh.auto_smooth_angle = angle
-    mesh.calc_normals_split()
-    mesh.split_faces()
-    mesh.use_auto_smooth = False
+        blender_versions.sharpen(mesh, buffer["smooth_angle"])

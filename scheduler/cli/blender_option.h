@@ -13,6 +13,7 @@ inline CLI::Option* add_blender_option(CLI::App& verb, std::string& blender) {
       .add_option("--blender", blender,
                   "Blender: a path, a name in PATH, or python:VENV for the module bpy in a virtual "
                   "environment")
+      ->envname("SEEDFRAME_BLENDER")
       ->capture_default_str();
 }
 

@@ -7,16 +7,19 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "assets/image_check.h"
 #include "image_files/image_reader.h"
 #include "tests/fixtures/all_image_kinds.h"
+#include "tests/fixtures/real_blender.h"
 
 namespace seedframe {
 namespace {
 
+using ::testing::StartsWith;
 namespace fs = std::filesystem;
 
 struct BlenderImage {
@@ -39,12 +42,11 @@ class RealBlenderReading : public ::testing::Test {
 
   void run_blender() {
     ASSERT_TRUE(write_file(folder_ / "list.txt", list_));
-    const std::string command = fmt::format(
-        "blender --background --factory-startup --disable-autoexec -noaudio --threads 1 "
-        "--python-exit-code 3 --python '{}/tests/assets/blender/read_images.py' -- '{}' > "
-        "'{}' 2>&1",
-        SEEDFRAME_HOME, (folder_ / "list.txt").string(), (folder_ / "log.txt").string());
-    ASSERT_EQ(std::system(command.c_str()), 0) << *read_file(folder_ / "log.txt");
+    const fs::path log = folder_ / "log.txt";
+    ASSERT_EQ(run_in_blender(SEEDFRAME_HOME "/tests/assets/blender/read_images.py",
+                             (folder_ / "list.txt").string(), log),
+              0)
+        << *read_file(log);
   }
 
   bool was_read(const std::string& name, const std::string& use) const {
@@ -122,7 +124,7 @@ TEST_F(RealBlenderReading, ColoursAreLinearInExrAndHdrAndSrgbElsewhere) {
     ASSERT_TRUE(ours) << ours.error().message;
     const BlenderImage blender = result(file.name, "color");
     const bool linear = file.kind == ImageKind::kExr || file.kind == ImageKind::kHdr;
-    EXPECT_EQ(blender.color_space, linear ? "Linear" : "sRGB") << file.name;
+    EXPECT_THAT(blender.color_space, StartsWith(linear ? "Linear" : "sRGB")) << file.name;
     if (!linear) {
       for (float& value : ours->values) value = linear_of(value);
     }
@@ -154,7 +156,7 @@ TEST_F(RealBlenderReading, EnvironmentMapsHaveTheSamePixelsInBlender) {
   run_blender();
   for (const ImageFile& file : files) {
     const BlenderImage blender = result(file.name, "environment");
-    EXPECT_EQ(blender.color_space, "Linear") << file.name;
+    EXPECT_THAT(blender.color_space, StartsWith("Linear")) << file.name;
     EXPECT_LE(difference(light, blender.rgb), 1e-6F) << file.name;
   }
 }

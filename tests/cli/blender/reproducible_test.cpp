@@ -10,6 +10,7 @@
 
 #include "formats/formats.h"
 #include "tests/cli/program.h"
+#include "tests/fixtures/real_blender.h"
 #include "tests/fixtures/script.h"
 
 namespace seedframe {
@@ -50,14 +51,25 @@ class RealBlenderCampaign : public ProgramTest {
   void SetUp() override {
     write_config("real.yaml", kConfig);
     // Blender, and a line for each of its starts.
-    write_script(folder_ / "blender.sh", "#!/bin/sh\n[ \"$1\" = --version ] || echo start >> " +
-                                             (folder_ / "starts.txt").string() +
-                                             "\nexec blender \"$@\"\n");
+    const auto blender = find_blender(test_blender());
+    ASSERT_TRUE(blender) << blender.error().message;
+    const bool is_module = !blender->module.empty();
+    if (is_module) {
+      std::filesystem::create_directories(folder_ / "blender/bin");
+      std::filesystem::create_symlink(blender->path.parent_path().parent_path() / "lib",
+                                      folder_ / "blender/lib");
+    }
+    write_script(folder_ / (is_module ? "blender/bin/python" : "blender.sh"),
+                 "#!/bin/sh\n[ \"$1\" = --version ] || echo start >> " +
+                     (folder_ / "starts.txt").string() + "\nexec " + blender->path.string() +
+                     " \"$@\"\n");
+    counted_blender_ = is_module ? "python:blender" : "./blender.sh";
   }
   std::vector<std::string> submit(const std::string& campaign, const std::string& workers) {
     return {"submit",    "real.yaml", "-o",        campaign,
-            "--workers", workers,     "--blender", "./blender.sh"};
+            "--workers", workers,     "--blender", counted_blender_};
   }
+  std::string counted_blender_;
   int starts() const {
     const auto text = read_file(folder_ / "starts.txt");
     return text ? static_cast<int>(std::count(text->begin(), text->end(), '\n')) : 0;
@@ -89,7 +101,8 @@ TEST_F(RealBlenderCampaign, OneWorkerTwoWorkersAndAKilledRunGiveTheSameBytes) {
   ::kill(pid, SIGKILL);
   wait(pid);
   EXPECT_FALSE(exists("killed/frames/000/000011")) << "the kill came too late to mean anything";
-  const Outcome resumed = run({"resume", "killed", "--workers", "1", "--blender", "./blender.sh"});
+  const Outcome resumed =
+      run({"resume", "killed", "--workers", "1", "--blender", counted_blender_});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.errors;
 
   const std::string hash = status("one").at("dataset_hash");
@@ -157,7 +170,7 @@ TEST_F(RealBlenderCampaign, AFrameIsTheSameInAnotherCampaignThatHoldsIt) {
   arguments.insert(arguments.end(), {"--frames", "2"});
   ASSERT_EQ(run(arguments).exit_code, 0);
   const auto before = contents("few/frames/000/000001");
-  ASSERT_EQ(run({"resume", "few", "--frame", "1", "--blender", "./blender.sh"}).exit_code, 0);
+  ASSERT_EQ(run({"resume", "few", "--frame", "1", "--blender", counted_blender_}).exit_code, 0);
   EXPECT_EQ(contents("few/frames/000/000001"), before);
 }
 

@@ -10,9 +10,13 @@ Writes into FOLDER:
 """
 
 import os
+import pathlib
 import sys
 
 import bpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "blender_scripts"))
+import blender_versions  # noqa: E402
 
 WIDTH, HEIGHT = 320, 240
 # Seen by a camera at the origin that looks down -z: a chart of colours, and a tilted grey plane in
@@ -21,8 +25,8 @@ CHART_ID, CHART_DISTANCE_M, CHART_STOPS = 7, 4.0, (-10.0, 4.33)  # 2^4.33 = 20
 TILTED_ID, TILT_RADIANS = 300, 0.5
 
 EXPOSURES_AND_GAMMAS = ((0.0, 1.0), (1.0, 1.0), (-1.5, 1.2))
-VIEWS = ("Standard", "Filmic")
-LOOKS = ("None", "Medium High Contrast")
+VIEWS_AND_LOOKS = (("Standard", "Medium High Contrast"), ("Filmic", "Medium High Contrast"),
+                   ("AgX", "AgX - Medium High Contrast"))  # AgX since Blender 4.0
 
 
 def emission_material(name):
@@ -108,7 +112,7 @@ def build_scene():
 
 def render_passes(scene, path):
     image = scene.render.image_settings
-    image.file_format = "OPEN_EXR_MULTILAYER"
+    blender_versions.set_multilayer_file(image)
     image.color_depth = "16"
     image.exr_codec = "ZIP"
     scene.render.filepath = path
@@ -117,12 +121,14 @@ def render_passes(scene, path):
 
 def save_references(scene, folder):
     image = scene.render.image_settings
+    if hasattr(image, "media_type"):  # Blender 5.0
+        image.media_type = "IMAGE"
     image.file_format = "PNG"
     image.color_mode = "RGB"
     image.color_depth = "8"
     rows = []
-    for view in VIEWS:
-        for look in LOOKS:
+    for view, contrast in VIEWS_AND_LOOKS[:2 if bpy.app.version < (4, 0, 0) else 3]:
+        for look in ("None", contrast):
             for exposure, gamma in EXPOSURES_AND_GAMMAS:
                 scene.view_settings.view_transform = view
                 scene.view_settings.look = look

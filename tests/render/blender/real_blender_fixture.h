@@ -23,6 +23,7 @@
 #include "render/local_executor.h"
 #include "render/worker_pool.h"
 #include "spec/frame_spec.h"
+#include "tests/fixtures/real_blender.h"
 #include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
@@ -149,7 +150,7 @@ class RealBlender : public testing::Test, public RenderClient {
   FrameSpec varied(std::int64_t frame) const;
 
   Result<RunSummary> render(const std::vector<std::int64_t>& frames, int threads) {
-    const Result<BlenderInfo> blender = probe_blender();
+    const Result<BlenderInfo> blender = probe_blender(test_blender());
     if (!blender) return forward_error(blender);
     PoolOptions options;
     WorkerOptions worker;

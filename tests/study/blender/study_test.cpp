@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "tests/fixtures/real_blender.h"
 #include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
@@ -13,7 +14,7 @@ namespace {
 constexpr const char* kOcio = "/usr/share/blender/datafiles/colormanagement/config.ocio";
 
 TEST(RealBlenderStudy, TheSameIsIdenticalAndOtherKernelsAreNot) {
-  const auto blender = probe_blender("blender");
+  const auto blender = probe_blender(test_blender());
   ASSERT_TRUE(blender) << blender.error().message;
   const auto color = ColorManagement::load(kOcio);
   ASSERT_TRUE(color);
@@ -35,7 +36,7 @@ TEST(RealBlenderStudy, TheSameIsIdenticalAndOtherKernelsAreNot) {
     EXPECT_EQ(cell.linear.pixels, 64 * 48);
     EXPECT_EQ(cell.other_ids + cell.other_depths + cell.other_normals, 0) << study_scenes()[i];
   }
-  EXPECT_NE(study.made_with()->find("Blender 3"), std::string::npos);
+  EXPECT_NE(study.made_with()->find("Blender " + blender->version), std::string::npos);
 
   StudySetting old_cpu = plain;
   old_cpu.kernels = kernels_of(Isa::kSse2);
