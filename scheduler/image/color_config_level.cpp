@@ -104,28 +104,40 @@ class Lowering {
     return some;
   }
 
+  bool is_of_what_is_gone(const YAML::Node& view) const {
+    return is_gone(view["view_transform"]) || is_gone(view["colorspace"]) ||
+           is_gone(view["display_colorspace"]) || is_gone(view["looks"]);
+  }
+
+  /// The names of those that no display has any more.
   NameSet drop_views() {
-    NameSet all_gone, all_kept;
+    NameSet gone, kept, empty_displays;
+    YAML::Node displays(YAML::NodeType::Map);
     for (const auto& display : root_["displays"]) {
-      YAML::Node kept(YAML::NodeType::Sequence);
+      YAML::Node views(YAML::NodeType::Sequence);
       for (const YAML::Node& view : display.second) {
-        const std::string name = view["name"].as<std::string>();
-        const bool gone = is_gone(view["view_transform"]) || is_gone(view["colorspace"]) ||
-                          is_gone(view["display_colorspace"]) || is_gone(view["looks"]);
-        (gone ? all_gone : all_kept).insert(name);
-        if (!gone) kept.push_back(view);
+        const bool drop = is_of_what_is_gone(view);
+        (drop ? gone : kept).insert(view["name"].as<std::string>());
+        if (!drop) views.push_back(view);
       }
-      root_["displays"][display.first.as<std::string>()] = kept;
+      const std::string name = display.first.as<std::string>();
+      if (views.size() > 0) displays[name] = views;
+      if (views.size() == 0) empty_displays.insert(name);
     }
-    for (const std::string& name : all_kept) all_gone.erase(name);
-    if (root_["active_views"]) {
-      YAML::Node active(YAML::NodeType::Sequence);
-      for (const YAML::Node& view : root_["active_views"]) {
-        if (all_gone.count(view.as<std::string>()) == 0) active.push_back(view);
-      }
-      root_["active_views"] = active;
+    root_["displays"] = displays;
+    for (const std::string& name : kept) gone.erase(name);
+    drop_from_list("active_views", gone);
+    drop_from_list("active_displays", empty_displays);
+    return gone;
+  }
+
+  void drop_from_list(const char* list, const NameSet& names) {
+    if (!root_[list] || !root_[list].IsSequence()) return;
+    YAML::Node kept(YAML::NodeType::Sequence);
+    for (const YAML::Node& each : root_[list]) {
+      if (names.count(each.as<std::string>()) == 0) kept.push_back(each);
     }
-    return all_gone;
+    root_[list] = kept;
   }
 
   YAML::Node root_;

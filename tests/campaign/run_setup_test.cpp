@@ -83,8 +83,8 @@ TEST_F(RunSetupTest, WorkersThatAreAskedForShareTheCores) {
 }
 
 TEST_F(RunSetupTest, OfABlenderThatIsNotTestedTheUserIsTold) {
-  use_blender("4.2.0");
-  EXPECT_THAT(set_up().notes, ElementsAre(HasSubstr("Blender 4.2.0 is not a version that")));
+  use_blender("4.3.0");
+  EXPECT_THAT(set_up().notes, ElementsAre(HasSubstr("Blender 4.3.0 is not a version that")));
 }
 
 TEST_F(RunSetupTest, WithoutBlenderThereIsNone) {

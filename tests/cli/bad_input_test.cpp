@@ -107,11 +107,11 @@ TEST_F(BadInputTest, Blenders) {
 
 TEST_F(BadInputTest, ABlenderThatIsNotTestedIsSaidSoAndNotRefused) {
   write_config("scene.yaml", with_object("{asset: gear}"));
-  write_script(folder_ / "new_blender", "#!/bin/sh\necho Blender 4.2.1 LTS\n");
+  write_script(folder_ / "new_blender", "#!/bin/sh\necho Blender 4.3.1\n");
   const Outcome outcome =
       run({"submit", "scene.yaml", "-o", "c", "--dry-run", "--blender", "./new_blender"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_THAT(outcome.errors, HasSubstr("Blender 4.2.1 is not a version that Seedframe is tested"));
+  EXPECT_THAT(outcome.errors, HasSubstr("Blender 4.3.1 is not a version that Seedframe is tested"));
   EXPECT_THAT(outcome.output, HasSubstr("nothing was written"));
   EXPECT_FALSE(exists("c"));
 }

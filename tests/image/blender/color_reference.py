@@ -59,10 +59,11 @@ def chart_material():
     links.new(coordinates.outputs["UV"], split.inputs["Vector"])
     bands = math(nodes, links, "MULTIPLY", split.outputs["X"], 64.0)
     step = math(nodes, links, "MODULO", math(nodes, links, "FLOOR", bands, 0.0), 4.0)
-    color = nodes.new("ShaderNodeCombineHSV")
-    links.new(split.outputs["X"], color.inputs["H"])
-    links.new(math(nodes, links, "DIVIDE", step, 3.0), color.inputs["S"])
-    color.inputs["V"].default_value = 1.0
+    color = nodes.new("ShaderNodeCombineColor")
+    color.mode = "HSV"
+    links.new(split.outputs["X"], color.inputs[0])
+    links.new(math(nodes, links, "DIVIDE", step, 3.0), color.inputs[1])
+    color.inputs[2].default_value = 1.0
     links.new(color.outputs["Color"], emission.inputs["Color"])
     low, high = CHART_STOPS
     stops = math(nodes, links, "ADD",
