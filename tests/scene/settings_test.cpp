@@ -55,7 +55,7 @@ camera: {distance_m: 1}
   EXPECT_EQ(settings.image.gamma, 2.0);
   EXPECT_EQ(settings.ocio_config, folder / "other.ocio");
   EXPECT_EQ(settings.image_encoding.format, ImageFormat::kWebp);
-  EXPECT_EQ(settings.image_place.line, 10);
+  EXPECT_EQ(settings.image_place.line, 11);
   EXPECT_EQ(settings.labels, LabelSource::kTwin);
   EXPECT_FALSE(settings.twin_check.wanted);
   EXPECT_EQ(settings.twin_check.tolerance.inside_share, 0.5);
