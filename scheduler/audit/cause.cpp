@@ -18,7 +18,7 @@ namespace {
 using CauseKind = Cause::Kind;
 
 constexpr std::size_t kMostInputs = 4;
-constexpr std::array<Isa, 4> kIsas = {Isa::kSse2, Isa::kSse41, Isa::kAvx, Isa::kAvx2};
+constexpr std::array<Isa, 5> kIsas = {Isa::kSse2, Isa::kSse41, Isa::kSse42, Isa::kAvx, Isa::kAvx2};
 
 std::string short_hash(const std::string& hash) { return hash.substr(0, 12); }
 

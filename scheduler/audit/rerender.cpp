@@ -86,7 +86,9 @@ RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
           options.worker.environment["GLIBC_TUNABLES"] =
               "glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX2,-FMA,-AVX";
         } else {
-          options.worker.conditions.kernels = kernels_of(kOtherIsa);
+          // Not as what a worker must have: Blender 4 has no kernel for AVX, and takes the next.
+          options.worker.environment.merge(
+              environment_of({.kernels = kernels_of(kOtherIsa)}, options.worker.preload));
         }
         break;
       case Condition::kOrder:    // of the frames, and

@@ -6,7 +6,7 @@
 namespace seedframe {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames = {"sse2", "sse41", "avx", "avx2"};
+constexpr std::array<std::string_view, 5> kNames = {"sse2", "sse41", "sse42", "avx", "avx2"};
 
 }  // namespace
 

@@ -9,9 +9,9 @@
 namespace seedframe {
 
 /// Least first.
-enum class Isa { kSse2, kSse41, kAvx, kAvx2 };
+enum class Isa { kSse2, kSse41, kSse42, kAvx, kAvx2 };
 
-/// As configs and Cycles name it: "sse2", "sse41", "avx", "avx2".
+/// As configs and Cycles name it: "sse2", "sse41", "sse42", "avx", "avx2".
 const char* to_string(Isa isa);
 /// None for other words.
 std::optional<Isa> isa_of(std::string_view name);

@@ -36,7 +36,7 @@ struct ReadyMessage {
   std::string blender;      ///< "3.4.1"
   std::string build;        ///< Blender's build hash
   std::string ocio_config;  ///< path of the colour configuration that Blender uses
-  std::string kernel;       ///< that Cycles uses: "avx2", "avx", "sse41", "sse3", "sse2"
+  std::string kernel;       ///< that Cycles uses: "avx2", "avx", "sse42", "sse41", "sse3", "sse2"
   std::string embree;       ///< kernels that Embree uses: "avx512", "avx2", …; empty: unknown
   std::string reciprocals;  ///< hash of the CPU's approximate reciprocals; empty: unknown
   std::string libc;         ///< "glibc 2.36"

@@ -1,5 +1,6 @@
 #include "render/worker_conditions.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 
@@ -9,17 +10,19 @@ namespace seedframe {
 namespace {
 
 struct KernelRow {
-  const char* cycles;      ///< name of Cycles' kernel
-  const char* embree;      ///< and of Embree's, with the same instructions
-  const char* next_above;  ///< forbids Cycles all kernels above
+  const char* cycles;                       ///< name of Cycles' kernel
+  const char* embree;                       ///< and of Embree's, with the same instructions
+  std::array<const char*, 2> forbidden_by;  ///< variables, of which Cycles reads one
 };
 
-/// Cycles tries its kernels from the best on, and skips those that a variable forbids. In the order
-/// of Isa.
-constexpr std::array<KernelRow, 4> kRows = {{{"sse2", "sse2", "CYCLES_CPU_NO_SSE3"},
-                                             {"sse41", "sse4.2", "CYCLES_CPU_NO_AVX"},
-                                             {"avx", "avx", "CYCLES_CPU_NO_AVX2"},
-                                             {"avx2", "avx2", ""}}};
+/// Cycles tries its kernels from the best on, and skips those that a variable forbids; which there
+/// are depends on Blender's version. In the order of Isa.
+constexpr std::array<KernelRow, 5> kRows = {
+    {{"sse2", "sse2", {"CYCLES_CPU_NO_SSE2", ""}},
+     {"sse41", "sse4.2", {"CYCLES_CPU_NO_SSE3", "CYCLES_CPU_NO_SSE41"}},
+     {"sse42", "sse4.2", {"CYCLES_CPU_NO_SSE42", ""}},
+     {"avx", "avx", {"CYCLES_CPU_NO_AVX", ""}},
+     {"avx2", "avx2", {"CYCLES_CPU_NO_AVX2", ""}}}};
 
 /// jemalloc, which Debian's Blender has, would give its pages back after each frame and be handed
 /// zeroed ones for the next. It keeps what the largest frame had, and no more.
@@ -67,9 +70,12 @@ std::map<std::string, std::string> environment_of(const WorkerConditions& condit
   if (!is_set("MALLOC_CONF")) environment["MALLOC_CONF"] = kKeepPages;
   if (conditions.kernels) {
     environment["SEEDFRAME_EMBREE_ISA"] = conditions.kernels->embree;
-    for (const KernelRow& row : kRows) {
-      if (conditions.kernels->cycles == row.cycles && *row.next_above != '\0') {
-        environment[row.next_above] = "1";
+    const auto* row = std::find_if(kRows.begin(), kRows.end(), [&](const KernelRow& each) {
+      return conditions.kernels->cycles == each.cycles;
+    });
+    while (row != kRows.end() && ++row != kRows.end()) {
+      for (const char* variable : row->forbidden_by) {
+        if (*variable != '\0') environment[variable] = "1";
       }
     }
   }

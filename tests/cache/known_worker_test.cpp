@@ -150,6 +150,20 @@ TEST_F(KnownWorkerTest, ABlenderThatHasBeenReplacedIsAsked) {
   EXPECT_EQ(info->version, "3.6.12");
 }
 
+TEST_F(KnownWorkerTest, AModuleThatHasBeenReplacedIsAnotherAtOnce) {
+  const std::filesystem::path venv = scratch_ / "venv";
+  const std::filesystem::path packages = venv / "lib/python3.11/site-packages";
+  std::filesystem::create_directories(packages / "bpy");
+  std::filesystem::create_directories(venv / "bin");
+  std::filesystem::copy_file("/bin/true", venv / "bin/python");
+  ASSERT_TRUE(write_file(packages / "bpy/__init__.so", "library"));
+  std::filesystem::create_directory(packages / "bpy-4.5.14.dist-info");
+  const std::string name = "python:" + venv.string();
+  EXPECT_EQ(known_blender(cache_.get(), name)->version, "4.5.14");
+  std::filesystem::rename(packages / "bpy-4.5.14.dist-info", packages / "bpy-4.5.15.dist-info");
+  EXPECT_EQ(known_blender(cache_.get(), name)->version, "4.5.15");
+}
+
 TEST_F(KnownWorkerTest, WithoutACacheBlenderIsAskedEachTime) {
   const std::string blender = program("3.4.1");
   ASSERT_TRUE(known_blender(nullptr, blender));

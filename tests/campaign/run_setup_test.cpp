@@ -5,6 +5,7 @@
 
 #include "base/cores.h"
 #include "base/files.h"
+#include "base/sha256.h"
 #include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
@@ -85,6 +86,30 @@ TEST_F(RunSetupTest, WorkersThatAreAskedForShareTheCores) {
 TEST_F(RunSetupTest, OfABlenderThatIsNotTestedTheUserIsTold) {
   use_blender("4.3.0");
   EXPECT_THAT(set_up().notes, ElementsAre(HasSubstr("Blender 4.3.0 is not a version that")));
+}
+
+TEST_F(RunSetupTest, AModuleOfPythonBringsItsColours) {
+  const fs::path packages = scratch_ / "venv/lib/python3.11/site-packages";
+  const fs::path config = packages / "bpy/4.5/datafiles/colormanagement/config.ocio";
+  fs::create_directories(config.parent_path());
+  fs::create_directories(packages / "bpy-4.5.15.dist-info");
+  fs::create_directories(scratch_ / "venv/bin");
+  fs::copy_file(kOcioConfig, config);
+  fs::copy(fs::path(kOcioConfig).parent_path() / "luts", config.parent_path() / "luts");
+  fs::copy(fs::path(kOcioConfig).parent_path() / "filmic", config.parent_path() / "filmic");
+  fs::copy_file("/bin/true", scratch_ / "venv/bin/python");
+  EXPECT_TRUE(write_file(packages / "bpy/__init__.so", "library"));
+  settings_.ocio_config.reset();
+  options_.blender = "python:" + (scratch_ / "venv").string();
+  const RunSetup setup = set_up();
+  EXPECT_EQ(setup.blender.version, "4.5.15");
+  EXPECT_EQ(setup.options.worker.blender.module, packages / "bpy");
+  ASSERT_NE(setup.color, nullptr);
+  EXPECT_EQ(setup.color->config_hash(), *sha256_of_file(config));
+  EXPECT_THAT(setup.notes, IsEmpty());
+
+  fs::remove(config);
+  EXPECT_THAT(error().message, HasSubstr(config.string()));
 }
 
 TEST_F(RunSetupTest, WithoutBlenderThereIsNone) {

@@ -37,6 +37,12 @@ TEST(WorkerConditions, APinNamesBothKernels) {
   EXPECT_THAT(avx, Contains(Pair("SEEDFRAME_EMBREE_ISA", "avx")));
   const auto sse41 = environment_of(pinned_to(Isa::kSse41), "/lib/worker_cpu.so");
   EXPECT_THAT(sse41, Contains(Pair("CYCLES_CPU_NO_AVX", "1")));
+  EXPECT_THAT(sse41, Contains(Pair("CYCLES_CPU_NO_SSE42", "1"))) << "that of Blender 4.2";
+  EXPECT_THAT(sse41, Contains(Pair("CYCLES_CPU_NO_AVX2", "1"))) << "Blender 4 has no AVX alone";
+  EXPECT_THAT(sse41, Not(Contains(Key("CYCLES_CPU_NO_SSE41"))));
+  const auto sse42 = environment_of(pinned_to(Isa::kSse42), "/lib/worker_cpu.so");
+  EXPECT_THAT(sse42, Contains(Pair("CYCLES_CPU_NO_AVX2", "1")));
+  EXPECT_THAT(sse42, Not(Contains(Key("CYCLES_CPU_NO_SSE42"))));
   EXPECT_THAT(sse41, Contains(Pair("SEEDFRAME_EMBREE_ISA", "sse4.2")));
   const auto best = environment_of(pinned_to(Isa::kAvx2), "/lib/worker_cpu.so");
   EXPECT_THAT(best, Contains(Pair("SEEDFRAME_EMBREE_ISA", "avx2"))) << "and no AVX-512";
