@@ -23,6 +23,7 @@ import study_scenes  # noqa: E402
 from passes import PassRenderer  # noqa: E402
 
 BOUNCES = 8
+ADAPTIVE = {"threshold": 0.05, "min_samples": 0}  # 0: Cycles chooses
 
 
 def main():
@@ -42,10 +43,9 @@ def main():
             renderer = PassRenderer(scene, plan["persistent_data"])
             scene.render.use_motion_blur = blur
         study_scenes.move(scene, render["frame"])
-        scene.cycles.use_adaptive_sampling = render["adaptive"]
-        scene.cycles.adaptive_threshold = 0.05
         renderer.render({"width": render["width"], "height": render["height"], "samples": render["samples"],
-                         "seed": 1, "filter_width_px": 1.5, "clamp_indirect": 0.0, "max_bounces": BOUNCES,
+                         "seed": 1, "adaptive": ADAPTIVE if render["adaptive"] else None, "denoise": "off",
+                         "filter_width_px": 1.5, "clamp_indirect": 0.0, "max_bounces": BOUNCES,
                          "depth": True, "normal": True}, render["output"], "study")
 
 

@@ -185,8 +185,10 @@ TEST_F(RealBlenderReading, WhatIsRefusedIsWhatBlenderMisreads) {
   run_blender();
   EXPECT_FALSE(was_read("layers.exr", "environment"));
   EXPECT_FALSE(was_read("crlf.hdr", "environment"));
-  const Image<float> xyze = result("xyze.hdr", "environment").rgb;
-  for (int c = 0; c < 3; ++c) EXPECT_EQ(xyze.at(8, 8, c), c == 1 ? 0.0F : 1.0F);  // magenta
+  if (was_read("xyze.hdr", "environment")) {  // not by later Blenders
+    const Image<float> xyze = result("xyze.hdr", "environment").rgb;
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(xyze.at(8, 8, c), c == 1 ? 0.0F : 1.0F);  // magenta
+  }
   // As if it were not turned.
   EXPECT_EQ(difference(radiance_values(colors), result("turned.hdr", "environment").rgb), 0.0F);
 }
