@@ -4,6 +4,8 @@ rest. Nothing else in these scripts depends on a version.
 What can be seen in Blender itself is not looked up by its number.
 """
 
+import math
+
 # Kernels of Cycles for instructions that the CPU may have, least first: name, how Cycles calls the
 # instructions, and the variable that forbids the kernel. Before them is one for any CPU that this
 # Blender runs on.
@@ -57,6 +59,12 @@ def set_color_space(image, use):
 def principled_input(node, name):
     """An input of a Principled BSDF by its name before Blender 4.0."""
     return node.inputs[name] if name in node.inputs else node.inputs[_PRINCIPLED_SINCE_4_0[name]]
+
+
+def area_light_factor(version):
+    """What Blender's power of an area light is for a watt that leaves it: before 4.0 Cycles divided by 4
+    where it is π, so such lights were too dark."""
+    return 1.0 if tuple(version) >= (4, 0, 0) else 4.0 / math.pi
 
 
 def set_loop_totals(mesh, totals):

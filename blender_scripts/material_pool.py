@@ -178,6 +178,7 @@ class _Tree:
 
     def _add_look(self, structure):
         principled = self._add("ShaderNodeBsdfPrincipled")
+        principled.distribution = "GGX"  # the default is another one since Blender 4.0
         textures = {use: self._add_texture() for use in structure}
         self._textures.append(textures)
         for name in _SCALARS:

@@ -10,6 +10,7 @@ import collections
 import bpy
 from mathutils import Matrix
 
+import blender_versions
 from image_cache import ImageCache
 from material_pool import MaterialPool
 from mesh_cache import MeshCache
@@ -132,6 +133,8 @@ class SceneBuilder:
             self._light_data[kind, index] = light
         light.color = spec["color"]
         light.energy = spec["power"]
+        if kind == "area":
+            light.energy *= blender_versions.area_light_factor(bpy.app.version)
         if kind in ("point", "spot"):
             light.shadow_soft_size = spec["radius_m"]
         if kind == "spot":

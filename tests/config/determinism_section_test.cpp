@@ -35,8 +35,9 @@ TEST(DeterminismSection, ErrorsNameTheKey) {
   EXPECT_THAT(refusal_of("determinism: portabel\n"),
               HasSubstr("d.yaml:3:14: determinism: expected 'machine', 'portable' or 'none', found "
                         "'portabel' (did you mean 'portable'?)"));
-  EXPECT_THAT(refusal_of("determinism: {mode: portable, isa: avx512}\n"),
-              HasSubstr("determinism.isa: expected one of sse2, sse41, sse42, avx, avx2, found 'avx512'"));
+  EXPECT_THAT(
+      refusal_of("determinism: {mode: portable, isa: avx512}\n"),
+      HasSubstr("determinism.isa: expected one of sse2, sse41, sse42, avx, avx2, found 'avx512'"));
   EXPECT_THAT(refusal_of("determinism: {isa: avx}\n"),
               HasSubstr("only 'mode: portable' pins the instruction set"));
 }

@@ -54,7 +54,7 @@ TEST_F(RealBlender, AWhiteFurnaceIsWhite) {
 
 TEST_F(RealBlender, PowerIsInWatts) {
   // A point light of P watts at distance d gives a white diffuse surface the radiance P / (4 π²
-  // d²); for a sun the radiance is E / π.
+  // d²), a small area light that faces it four times as much; for a sun the radiance is E / π.
   FrameSpec spec = ball();
   spec.world.strength = 0.0;
   spec.materials[0].base_color = {1, 1, 1};
@@ -69,14 +69,19 @@ TEST_F(RealBlender, PowerIsInWatts) {
   sun.camera_from_light = placed(0, 0, 0);
   sun.color = {1, 1, 1};
   sun.power = 3;
-  specs[0] = specs[1] = spec;
+  LightSpec area = point;
+  area.kind = LightKind::kArea;
+  area.width_m = area.height_m = 0.05;
+  specs[0] = specs[1] = specs[2] = spec;
   specs[0].lights = {point};
   specs[1].lights = {sun};
-  ASSERT_TRUE(render({0, 1}, 1)) << testing::PrintToString(failures);
+  specs[2].lights = {area};
+  ASSERT_TRUE(render({0, 1, 2}, 1)) << testing::PrintToString(failures);
   const double pi = std::numbers::pi;
   EXPECT_NEAR(center(passes[0], 0), 100 / (4 * pi * pi * 9), 0.03);
   EXPECT_NEAR(center(passes[0], 2), 0.25 * 100 / (4 * pi * pi * 9), 0.01);
   EXPECT_NEAR(center(passes[1], 0), 3 / pi, 0.05);
+  EXPECT_NEAR(center(passes[2], 0), 100 / (pi * pi * 9), 0.03);
 }
 
 TEST_F(RealBlender, ASpotLightsItsFullConeAndAnAreaLightIsNotSeen) {
