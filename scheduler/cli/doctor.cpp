@@ -56,6 +56,7 @@ class Findings {
 /// "CPU (AMD EPYC 7B13)", and the like.
 std::string text_of(const std::vector<BlenderDescription::Device>& devices) {
   std::vector<std::string> each;
+  each.reserve(devices.size());
   for (const auto& [kind, name] : devices) each.push_back(fmt::format("{} ({})", kind, name));
   return fmt::format("{}", fmt::join(each, ", "));
 }

@@ -43,7 +43,7 @@ NameSet built_in_styles() {
 /// Takes out of a config what this library cannot make, and then what is made of that.
 class Lowering {
  public:
-  explicit Lowering(YAML::Node root) : root_(std::move(root)), styles_(built_in_styles()) {}
+  explicit Lowering(const YAML::Node& root) : root_(root), styles_(built_in_styles()) {}
 
   /// The names of the views that are gone.
   NameSet run() {

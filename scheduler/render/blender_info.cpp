@@ -24,7 +24,7 @@ Result<std::string> version_text(const BlenderProgram& program) {
     return output_of({program.path.string(), "--version"}, kProbeTimeout);
   }
   const Result<std::string> version = module_version(program);
-  if (!version) return version;
+  if (!version) return forward_error(version);
   return "Blender " + *version;
 }
 
