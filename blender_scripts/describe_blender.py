@@ -15,8 +15,8 @@ import render_devices  # noqa: E402
 
 def main():
     print("DESCRIPTION " + json.dumps({
-        "devices": [{"kind": kind, "name": name} for kind, name in render_devices.present()],
-        "denoisers": render_devices.denoisers(),
+        "devices": render_devices.text_of(render_devices.present()),
+        "denoisers": ", ".join(render_devices.denoisers()),
         "kernel": cpu_kernel.current(bpy.app.version),
         "embree": cpu_kernel.embree(),
     }), flush=True)

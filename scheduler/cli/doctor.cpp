@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/ranges.h>
 
 #include "assets/asset_library.h"
 #include "base/canonical_json.h"
@@ -53,24 +52,14 @@ class Findings {
   Json json_ = Json::array();
 };
 
-/// "CPU (AMD EPYC 7B13)", and the like.
-std::string text_of(const std::vector<BlenderDescription::Device>& devices) {
-  std::vector<std::string> each;
-  each.reserve(devices.size());
-  for (const auto& [kind, name] : devices) each.push_back(fmt::format("{} ({})", kind, name));
-  return fmt::format("{}", fmt::join(each, ", "));
-}
-
 void examine_abilities(const BlenderProgram& blender, Findings& findings) {
   const auto can =
       describe_blender(blender, seedframe_home() / "blender_scripts", worker_preload());
   if (!can) return findings.bad("renders", can.error().message);
-  findings.good(
-      "renders",
-      fmt::format(
-          "on {}; kernels: Cycles' {}, Embree's {}; denoisers: {}", text_of(can->devices),
-          can->kernel, can->embree.empty() ? "unknown" : can->embree,
-          can->denoisers.empty() ? "none" : fmt::format("{}", fmt::join(can->denoisers, ", "))));
+  findings.good("renders",
+                fmt::format("on {}; kernels: Cycles' {}, Embree's {}; denoisers: {}", can->devices,
+                            can->kernel, can->embree.empty() ? "unknown" : can->embree,
+                            can->denoisers.empty() ? "none" : can->denoisers));
 }
 
 void examine_blender(const std::string& program, Findings& findings) {

@@ -23,9 +23,7 @@ Result<BlenderDescription> parse_blender_description(const std::string& output) 
   try {
     const Json json = Json::parse(line);
     BlenderDescription found;
-    for (const Json& device : json.at("devices")) {
-      found.devices.push_back({device.at("kind"), device.at("name")});
-    }
+    json.at("devices").get_to(found.devices);
     json.at("denoisers").get_to(found.denoisers);
     json.at("kernel").get_to(found.kernel);
     json.at("embree").get_to(found.embree);

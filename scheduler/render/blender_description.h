@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "base/error.h"
 #include "render/blender_program.h"
@@ -11,14 +10,7 @@
 namespace seedframe {
 
 struct BlenderDescription {
-  struct Device {
-    std::string kind;  ///< as Cycles names it: "CPU", "CUDA", "OPTIX", …
-    std::string name;
-  };
-  std::vector<Device> devices;
-  std::vector<std::string> denoisers;
-  std::string kernel;  ///< of Cycles and of Embree, as ReadyMessage has them
-  std::string embree;
+  std::string devices, denoisers, kernel, embree;  ///< as ReadyMessage has them
 };
 
 /// Starts it as a worker would be, to ask. kEnvironment: it does not start, or cannot say.

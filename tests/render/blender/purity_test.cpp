@@ -1,5 +1,6 @@
 // The main promise: the pixels of a frame follow from its spec and from nothing else.
 #include <algorithm>
+#include <set>
 
 #include <gmock/gmock.h>
 
@@ -55,6 +56,40 @@ TEST_F(RealBlender, PixelsDependOnNeitherHistoryNorThreadsNorWorker) {
   for (const auto& [frame, each] : hashes_of(passes)) {
     EXPECT_EQ(each, hashes.at(frame)) << "in a fresh worker";
   }
+}
+
+TEST_F(RealBlender, AdaptiveSamplingAndDenoisingChangeThePictureOnlyAndRepeat) {
+  FrameSpec plain = ball();
+  plain.render.samples = 64;
+  plain.render.normal = true;
+  plain.materials[0].roughness = 0.2;
+  plain.materials[0].metallic = 1.0;
+  specs[0] = specs[1] = specs[2] = specs[3] = plain;
+  specs[1].render.adaptive = {0.3, 16};
+  specs[2].render.denoise = Denoise::kOidn;
+  specs[3].render.denoise = Denoise::kOidnFast;
+  ASSERT_TRUE(render({0, 1}, 1)) << testing::PrintToString(failures);
+  std::vector<std::int64_t> frames = {0, 1};
+  if (!ready.denoisers.empty()) frames.insert(frames.end(), {2, 3});
+  ASSERT_TRUE(render(frames, 1)) << testing::PrintToString(failures);
+  const Hashes hashes = hashes_of(passes);
+  std::set<std::string> pictures;
+  for (const std::int64_t frame : frames) {
+    pictures.insert(hashes.at(frame).at("combined"));
+    for (const char* pass : {"index", "depth", "normal"}) {
+      // A normal is the mean over a pixel's samples, of which adaptive sampling leaves some out.
+      if (frame == 1 && pass == std::string("normal")) continue;
+      EXPECT_EQ(hashes.at(frame).at(pass), hashes.at(0).at(pass)) << frame << " " << pass;
+    }
+  }
+  EXPECT_EQ(pictures.size(), frames.size()) << "each has its effect";
+
+  std::reverse(frames.begin(), frames.end());
+  ASSERT_TRUE(render(frames, 2));
+  EXPECT_EQ(hashes_of(passes), hashes) << "in reverse, with two threads";
+  frames_per_worker = 1;
+  ASSERT_TRUE(render(frames, 1));
+  EXPECT_EQ(hashes_of(passes), hashes) << "in fresh workers";
 }
 
 TEST_F(RealBlender, APinnedWorkerSaysSoAndAnotherKernelShowsInThePictureOnly) {
