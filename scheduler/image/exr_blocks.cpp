@@ -1,84 +1,86 @@
 #include "image/exr_blocks.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
+#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
-#include <libdeflate.h>
 
+#include "image/exr_compression.h"
 #include "image/exr_input.h"
 
 namespace seedframe {
 namespace {
 
-/// Of the run lengths of OpenEXR: 256 - n and n bytes, or n < 128 and a byte that stands n + 1
-/// times.
-bool unpacks_by_rle(std::string_view packed, std::size_t expected) {
-  std::size_t unpacked = 0;
-  while (!packed.empty()) {
-    const std::size_t code = static_cast<unsigned char>(packed.front());
-    const bool alike = code < 128;
-    const std::size_t taken = alike ? 1 : 256 - code;
-    if (packed.size() - 1 < taken) return false;
-    packed.remove_prefix(1 + taken);
-    unpacked += alike ? code + 1 : taken;
-  }
-  return unpacked == expected;
+constexpr std::size_t size_of(Imf::PixelType type) { return type == Imf::HALF ? 2 : 4; }
+
+/// A channel of the file, in the file's order.
+struct StoredChannel {
+  Imf::PixelType type;
+  const Imf::Slice* to;  ///< null: not wanted
+};
+
+template <class T>
+T value_at(const char* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);  // little-endian, as all that this is built for
+  return value;
 }
 
-/// Unpacks blocks of one file, one after the other.
-class BlockCheck {
- public:
-  BlockCheck() : inflater_(libdeflate_alloc_decompressor()) {}
-  ~BlockCheck() { libdeflate_free_decompressor(inflater_); }
-  BlockCheck(const BlockCheck&) = delete;
-  BlockCheck& operator=(const BlockCheck&) = delete;
+float half_at(const char* bytes) {
+  half value;
+  value.setBits(value_at<std::uint16_t>(bytes));
+  return value;
+}
 
-  bool is_whole(std::string_view packed, std::size_t expected, Imf::Compression compression) {
-    if (packed.size() == expected) return true;  // what would not become smaller is stored as it is
-    if (packed.size() > expected) return false;
-    switch (compression) {
-      case Imf::RLE_COMPRESSION:
-        return unpacks_by_rle(packed, expected);
-      case Imf::ZIPS_COMPRESSION:
-      case Imf::ZIP_COMPRESSION:
-        return unpacks_by_zip(packed, expected);
-      default:
-        return false;
-    }
+template <class Convert>
+void copy_values(const char* from, std::size_t bytes_each, std::size_t count, char* to,
+                 std::size_t stride, const Convert& convert) {
+  for (std::size_t i = 0; i < count; ++i, from += bytes_each, to += stride) {
+    const float value = convert(from);
+    std::memcpy(to, &value, sizeof value);
   }
+}
 
- private:
-  bool unpacks_by_zip(std::string_view packed, std::size_t expected) {
-    if (inflater_ == nullptr) return false;
-    scratch_.resize(expected);
-    std::size_t unpacked = 0;
-    return libdeflate_zlib_decompress(inflater_, packed.data(), packed.size(), scratch_.data(),
-                                      expected, &unpacked) == LIBDEFLATE_SUCCESS &&
-           unpacked == expected;
+void copy_line(const char* from, const StoredChannel& channel, int x, int y, std::size_t width) {
+  const Imf::Slice& slice = *channel.to;
+  assert(slice.type == Imf::FLOAT);
+  char* to = slice.base + static_cast<std::ptrdiff_t>(slice.xStride) * x +
+             static_cast<std::ptrdiff_t>(slice.yStride) * y;
+  switch (channel.type) {
+    case Imf::HALF:
+      return copy_values(from, 2, width, to, slice.xStride, half_at);
+    case Imf::UINT:
+      return copy_values(from, 4, width, to, slice.xStride, [](const char* bytes) {
+        return static_cast<float>(value_at<std::uint32_t>(bytes));
+      });
+    default:
+      return copy_values(from, 4, width, to, slice.xStride, value_at<float>);
   }
-
-  libdeflate_decompressor* inflater_;
-  std::vector<unsigned char> scratch_;
-};
+}
 
 }  // namespace
 
-const char* exr_block_fault(std::string_view bytes, const Imf::Header& header) {
+const char* read_exr_blocks(std::string_view bytes, const Imf::Header& header,
+                            const Imf::FrameBuffer& buffer) {
   const Imath::Box2i& window = header.dataWindow();
   const auto width = static_cast<std::size_t>(std::int64_t{window.max.x} - window.min.x + 1);
   const auto height = static_cast<std::size_t>(std::int64_t{window.max.y} - window.min.y + 1);
   std::size_t bytes_per_line = 0;
+  std::vector<StoredChannel> channels;
   for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
     const Imf::Channel& channel = i.channel();
     if (channel.xSampling != 1 || channel.ySampling != 1) {
       return "a channel does not have a value for every pixel";
     }
-    bytes_per_line += width * (channel.type == Imf::HALF ? 2 : 4);
+    bytes_per_line += width * size_of(channel.type);
+    channels.push_back({channel.type, buffer.findSlice(i.name())});
   }
   const std::size_t lines = header.compression() == Imf::ZIP_COMPRESSION ? 16 : 1;
-  BlockCheck check;
+  ExrUnpacker unpacker(header.compression());
   // The header is followed by the blocks' places in the file; a block is its first line, its length
   // and what is packed.
   std::size_t entry = exr_header_end(bytes);
@@ -88,9 +90,20 @@ const char* exr_block_fault(std::string_view bytes, const Imf::Header& header) {
     if (block > bytes.size() || bytes.size() - block < 8) return "it ends before a block of lines";
     const std::size_t length = little_endian<std::uint32_t>(bytes, block + 4);
     if (length > bytes.size() - block - 8) return "it ends in a block of lines";
-    const std::size_t expected = bytes_per_line * std::min(lines, height - line);
-    if (!check.is_whole(bytes.substr(block + 8, length), expected, header.compression())) {
-      return "a block of lines does not hold the values of its channels";
+    const int first_y = window.min.y + static_cast<int>(line);
+    if (little_endian<std::uint32_t>(bytes, block) != static_cast<std::uint32_t>(first_y)) {
+      return "a block of lines is not that of its place";
+    }
+    const std::size_t in_block = std::min(lines, height - line);
+    const char* from = unpacker.unpack(bytes.substr(block + 8, length), bytes_per_line * in_block);
+    if (from == nullptr) return "a block of lines does not hold the values of its channels";
+    for (std::size_t i = 0; i < in_block; ++i) {
+      for (const StoredChannel& channel : channels) {
+        if (channel.to != nullptr) {
+          copy_line(from, channel, window.min.x, first_y + static_cast<int>(i), width);
+        }
+        from += width * size_of(channel.type);
+      }
     }
   }
   return nullptr;

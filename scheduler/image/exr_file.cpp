@@ -6,7 +6,6 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 
@@ -75,11 +74,10 @@ Result<Image<float>> read_exr_channel(const std::filesystem::path& path,
       return fail(ErrorKind::kCorrupt, "{} is not an image with a float channel '{}'",
                   path.string(), channel);
     }
-    if (const char* fault = exr_block_fault(*bytes, header)) return damaged(fault);
     Image<float> image(window.max.x + 1, window.max.y + 1);
-    Imf::InputPart part(file, 0);
-    part.setFrameBuffer(frame_buffer(image, {channel}));
-    part.readPixels(0, window.max.y);
+    if (const char* fault = read_exr_blocks(*bytes, header, frame_buffer(image, {channel}))) {
+      return damaged(fault);
+    }
     return image;
   } catch (const std::exception& exception) {
     return damaged(exception.what());

@@ -9,7 +9,6 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
@@ -157,7 +156,7 @@ Result<std::vector<Pass>> find_passes(const fs::path& path, const Imf::ChannelLi
   return passes;
 }
 
-void read_pixels(Imf::MultiPartInputFile& file, std::vector<Pass>& passes, int height) {
+Imf::FrameBuffer frame_buffer_of(std::vector<Pass>& passes) {
   Imf::FrameBuffer buffer;
   for (Pass& pass : passes) {
     const std::size_t x_stride = sizeof(float) * pass.channels.size();
@@ -167,9 +166,7 @@ void read_pixels(Imf::MultiPartInputFile& file, std::vector<Pass>& passes, int h
       buffer.insert(pass.channels[c], Imf::Slice(Imf::FLOAT, first, x_stride, y_stride));
     }
   }
-  Imf::InputPart part(file, 0);
-  part.setFrameBuffer(buffer);
-  part.readPixels(0, height - 1);
+  return buffer;
 }
 
 Result<std::vector<Pass>> read_file_passes(const fs::path& path, const std::string& bytes,
@@ -185,10 +182,9 @@ Result<std::vector<Pass>> read_file_passes(const fs::path& path, const std::stri
     if (!file.partComplete(0)) return unusable(path, "the file was not written to its end");
     Result<std::vector<Pass>> passes = find_passes(path, file.header(0).channels(), expected);
     if (!passes) return passes;
-    if (const char* fault = exr_block_fault(bytes, file.header(0))) {
+    if (const char* fault = read_exr_blocks(bytes, file.header(0), frame_buffer_of(*passes))) {
       return unusable(path, "cut or damaged: {}", fault);
     }
-    read_pixels(file, *passes, expected.height);
     return passes;
   } catch (const std::exception& exception) {
     return unusable(path, "cut or damaged: {}", exception.what());
