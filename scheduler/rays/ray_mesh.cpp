@@ -80,6 +80,14 @@ const std::vector<std::array<float, 3>>& RayMesh::normals() const {
   return normals_;
 }
 
+const std::vector<MeshEdge>& RayMesh::edges() const {
+  std::call_once(edges_made_, [this] {
+    edges_ = edges_of_closed_mesh({tree_->positions, tree_->vertex_count},
+                                  {tree_->triangles, tree_->triangle_count});
+  });
+  return edges_;
+}
+
 std::size_t ray_tracing_bytes() { return g_embree_bytes; }
 
 std::string ray_tracing_version() {

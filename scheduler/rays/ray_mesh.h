@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "rays/mesh_edges.h"
 
 namespace seedframe {
 
@@ -27,6 +28,9 @@ class RayMesh {
   /// Shading normals, three per triangle (corner_normals.h); made when first asked for.
   const std::vector<std::array<float, 3>>& normals() const;
 
+  /// Those of a closed mesh (mesh_edges.h), else empty; made when first asked for.
+  const std::vector<MeshEdge>& edges() const;
+
   struct Tree;
   const Tree& tree() const { return *tree_; }
 
@@ -36,6 +40,8 @@ class RayMesh {
   double smooth_angle_rad_ = 0.0;
   mutable std::once_flag normals_made_;
   mutable std::vector<std::array<float, 3>> normals_;
+  mutable std::once_flag edges_made_;
+  mutable std::vector<MeshEdge> edges_;
 };
 
 /// Bytes that Embree holds at present, for all trees of the process together.

@@ -4,27 +4,12 @@
 #include <cstring>
 
 #include "rays/projected_box.h"
+#include "rays/projected_outline.h"
 #include "rays/ray_packet.h"
 #include "rays/scene_trees.h"
 
 namespace seedframe {
 namespace {
-
-/// A mask under construction, over `rect`.
-struct MaskDraft {
-  PixelRect rect;
-  std::vector<std::uint8_t> mask;
-
-  explicit MaskDraft(const PixelRect& area)
-      : rect(area), mask(static_cast<std::size_t>(area.area()), 0) {}
-
-  /// From the rectangle's first column on.
-  std::uint8_t* row(int y) {
-    return mask.data() +
-           static_cast<std::size_t>(y - rect.y) * static_cast<std::size_t>(rect.width);
-  }
-  const std::uint8_t* row(int y) const { return const_cast<MaskDraft*>(this)->row(y); }
-};
 
 /// Traces pixels of a mask eight at a time, whatever lies between them.
 class PixelQueue {
@@ -58,10 +43,6 @@ class PixelQueue {
   std::array<std::uint8_t*, RayPacket::kLanes> targets_{};
   std::size_t count_ = 0;
 };
-
-/// Pixels of a mask before anything is traced.
-constexpr std::uint8_t kSet = 1;
-constexpr std::uint8_t kUnknown = 2;
 
 /// One row of a mask: what the box and the traced image tell of it. Returns how many pixels must be
 /// traced.
@@ -104,7 +85,7 @@ void trace_unknown(MaskDraft& draft, PixelQueue& queue) {
 }
 
 /// Cuts a mask down to the pixels that are set.
-Silhouette tight_silhouette(const MaskDraft& draft, const PixelCamera& camera) {
+Silhouette tight_silhouette(MaskDraft& draft, const PixelCamera& camera) {
   const PixelRect& rect = draft.rect;
   Silhouette silhouette;
   int low_x = rect.width, high_x = -1, low_y = rect.end_y(), high_y = rect.y - 1;
@@ -152,6 +133,12 @@ Silhouette RayScene::silhouette(std::size_t index, const RayImage& image,
   std::int64_t unknown = 0;
   for (int y = rect.y; y < rect.end_y(); ++y) {
     unknown += draft_row(box, image, static_cast<std::int32_t>(index), y, draft);
+  }
+  // A pixel's ray costs as much as some triangles' part in the outline.
+  constexpr std::int64_t kTrianglesPerRay = 6;
+  const RayInstance& instance = scene_->instances[index];
+  if (kTrianglesPerRay * unknown > static_cast<std::int64_t>(instance.mesh->triangle_count())) {
+    unknown = fill_outline(*instance.mesh, instance.camera_from_object, scene_->camera, draft);
   }
   if (unknown > 0) {
     // A tree of its own costs as much as some hundred rays, and each ray is cheaper there.

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -36,6 +37,46 @@ std::vector<RayInstance> cubes_anywhere(int count, std::uint64_t seed) {
   return instances;
 }
 
+/// A ring whose surface has bumps and folds: many layers and thin triangles, seen from any side.
+Mesh bumpy_ring(std::uint32_t around, std::uint32_t across, bool closed) {
+  const PhiloxStream draws(11, "bumps");
+  Mesh mesh;
+  constexpr double kTurn = 6.283185307179586;
+  for (std::uint32_t i = 0; i < around; ++i) {
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const double a = kTurn * i / around;
+      const double b = kTurn * j / across;
+      const double radius = 0.3 + 0.1 * draws.uniform({.attempt = i * across + j});
+      const double out = 0.7 + radius * std::cos(b);
+      mesh.positions.push_back({static_cast<float>(out * std::cos(a)),
+                                static_cast<float>(out * std::sin(a)),
+                                static_cast<float>(radius * std::sin(b))});
+    }
+  }
+  for (std::uint32_t i = 0; i < around - (closed ? 0 : 1); ++i) {
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const std::uint32_t next_i = (i + 1) % around;
+      const std::uint32_t next_j = (j + 1) % across;
+      const std::array<std::uint32_t, 4> corner = {i * across + j, next_i * across + j,
+                                                   next_i * across + next_j, i * across + next_j};
+      mesh.triangles.push_back({corner[0], corner[1], corner[2]});
+      mesh.triangles.push_back({corner[0], corner[2], corner[3]});
+    }
+  }
+  mesh.corner_uvs.resize(3 * mesh.triangles.size());
+  mesh.triangle_slots.resize(mesh.triangles.size());
+  mesh.slot_names = {"surface"};
+  return mesh;
+}
+
+/// As cubes_anywhere, of another mesh.
+std::vector<RayInstance> anywhere(const Mesh& mesh, int count, std::uint64_t seed) {
+  std::vector<RayInstance> instances = cubes_anywhere(count, seed);
+  const auto shared = std::make_shared<const RayMesh>(mesh);
+  for (RayInstance& instance : instances) instance.mesh = shared;
+  return instances;
+}
+
 /// What every pixel of the canvas sees of the instance alone, asked one by one.
 void expect_every_pixel(const Silhouette& silhouette, const RayInstance& instance) {
   const RayScene alone(kPinhole, {instance});
@@ -63,6 +104,30 @@ TEST(Silhouette, IsTheInstanceAloneWhateverHidesIt) {
       SCOPED_TRACE(std::to_string(seed) + " " + std::to_string(i));
       expect_every_pixel(scene.silhouette(i, image), instances[i]);
     }
+  }
+}
+
+TEST(Silhouette, OfAClosedMeshIsThatOfItsRays) {
+  for (const auto& [around, across] : {std::pair(5U, 3U), {24U, 12U}, {90U, 60U}}) {
+    const auto instances = anywhere(bumpy_ring(around, across, true), 20, around);
+    ASSERT_FALSE(instances[0].mesh->edges().empty());
+    const RayScene scene(kPinhole, instances);
+    const RayImage image = scene.trace({.depth = true});
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+      SCOPED_TRACE(std::to_string(around) + " " + std::to_string(i));
+      expect_every_pixel(scene.silhouette(i, image), instances[i]);
+    }
+  }
+}
+
+TEST(Silhouette, OfAnOpenMeshIsThatOfItsRays) {
+  const auto instances = anywhere(bumpy_ring(24, 12, false), 12, 5);
+  ASSERT_TRUE(instances[0].mesh->edges().empty());
+  const RayScene scene(kPinhole, instances);
+  const RayImage image = scene.trace({.depth = true});
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_every_pixel(scene.silhouette(i, image), instances[i]);
   }
 }
 
