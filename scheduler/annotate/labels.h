@@ -94,6 +94,8 @@ Result<FrameLabels> make_labels(const FrameSpec& spec, const std::vector<std::st
 /// For each pixel the category of its instance, 0 for background and distractors.
 Image<std::uint8_t> semantic_image(const FrameSpec& spec, const Image<std::uint16_t>& instance_ids);
 
+/// Canonical JSON.
+std::string canonical_text(const FrameLabels& labels);
 Json to_json(const FrameLabels& labels);
 Result<FrameLabels> labels_from_json(const Json& json, const std::string& what);
 

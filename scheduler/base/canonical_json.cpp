@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
+#include "base/canonical_writer.h"
 #include "base/message_text.h"
 
 namespace seedframe {
@@ -40,38 +42,19 @@ void append_canonical(std::string& out, std::string_view text) {
 
 namespace {
 
-struct Layout {
-  bool readable;
-};
-
-void append_newline(std::string& out, int depth) {
-  out += '\n';
-  out.append(2 * static_cast<std::size_t>(depth), ' ');
-}
-
-bool is_flat(const Json& array) {
-  for (const Json& item : array) {
-    if (item.is_structured()) return false;
-  }
-  return true;
-}
-
-void append(std::string& out, const Json& value, Layout layout, int depth) {
+void append(std::string& out, const Json& value) {
   switch (value.type()) {
     case Json::value_t::number_float:
       append_canonical(out, value.get<double>());
       return;
     case Json::value_t::array: {
-      const bool lines = layout.readable && !is_flat(value);
       out += '[';
       bool first = true;
       for (const Json& item : value) {
-        if (!first) out += layout.readable && !lines ? ", " : ",";
-        if (lines) append_newline(out, depth + 1);
-        append(out, item, layout, depth + 1);
+        if (!first) out += ',';
+        append(out, item);
         first = false;
       }
-      if (lines && !first) append_newline(out, depth);
       out += ']';
       return;
     }
@@ -80,13 +63,11 @@ void append(std::string& out, const Json& value, Layout layout, int depth) {
       bool first = true;
       for (const auto& [key, item] : value.items()) {
         if (!first) out += ',';
-        if (layout.readable) append_newline(out, depth + 1);
         append_canonical(out, std::string_view(key));
-        out += layout.readable ? ": " : ":";
-        append(out, item, layout, depth + 1);
+        out += ':';
+        append(out, item);
         first = false;
       }
-      if (layout.readable && !first) append_newline(out, depth);
       out += '}';
       return;
     }
@@ -95,17 +76,68 @@ void append(std::string& out, const Json& value, Layout layout, int depth) {
   }
 }
 
+/// Where a text ends that begins at a quotation mark.
+std::size_t end_of_text(std::string_view json, std::size_t begin) {
+  std::size_t at = begin + 1;
+  for (; json[at] != '"'; ++at) {
+    if (json[at] == '\\') ++at;
+  }
+  return at + 1;
+}
+
+/// Whether a list that begins at a bracket holds neither lists nor objects.
+bool is_flat(std::string_view json, std::size_t begin) {
+  std::size_t at = begin + 1;
+  while (json[at] != ']') {
+    if (json[at] == '[' || json[at] == '{') return false;
+    at = json[at] == '"' ? end_of_text(json, at) : at + 1;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string canonical_json(const Json& value) {
   std::string out;
-  append(out, value, {.readable = false}, 0);
+  append(out, value);
   return out;
 }
 
-std::string readable_json(const Json& value) {
+std::string readable_json(const Json& value) { return readable_layout(canonical_json(value)); }
+
+std::string readable_layout(std::string_view canonical) {
   std::string out;
-  append(out, value, {.readable = true}, 0);
+  out.reserve(canonical.size() * 3 / 2);
+  std::vector<bool> in_lines;  // by level
+  const auto new_line = [&] {
+    out += '\n';
+    out.append(2 * in_lines.size(), ' ');
+  };
+  for (std::size_t at = 0; at < canonical.size();) {
+    const char c = canonical[at];
+    std::size_t end = at + 1;
+    if (c == ']' || c == '}') {
+      const bool lines = in_lines.back();
+      in_lines.pop_back();
+      if (lines) new_line();
+    } else if (c == '"') {
+      end = end_of_text(canonical, at);
+    } else if (c != '[' && c != '{' && c != ',' && c != ':') {
+      end = std::min(canonical.find_first_of(",]}", at), canonical.size());
+    }
+    out += canonical.substr(at, end - at);
+    if (c == ':' || (c == ',' && !in_lines.back())) out += ' ';
+    if (c == ',' && in_lines.back()) new_line();
+    if (c == '[' || c == '{') {
+      if (canonical[end] == ']' || canonical[end] == '}') {
+        out += canonical[end++];
+      } else {
+        in_lines.push_back(c == '{' || !is_flat(canonical, at));
+        if (in_lines.back()) new_line();
+      }
+    }
+    at = end;
+  }
   out += '\n';
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include "annotate/amodal.h"
 #include "annotate/labels.h"
+#include "base/canonical_writer.h"
 #include "frames/campaign_files.h"
 #include "frames/frame_writer.h"
 #include "image/exr_file.h"
@@ -65,7 +66,7 @@ Status keep_rejected(const FinishTask& task, const Image<std::uint16_t>& rendere
     fs::rename(task.attempt_folder / name, folder / name, error);  // the sharp one is seldom there
   }
   FrameWriter writer(folder);
-  writer.write(frame_files::kSpec, readable_json(to_json(task.spec)));
+  writer.write(frame_files::kSpec, readable_layout(canonical_text(task.spec)));
   writer.write(frame_files::kInstances, encode_png(rendered));
   writer.write(frame_files::kTwin, encode_png(twin.instance_ids));
   writer.write(frame_files::kDifference,
@@ -94,10 +95,10 @@ Status write_labels(const FinishTask& task, const std::vector<std::string>& cate
   Result<FrameLabels> labels = make_labels(task.spec, categories, instance_ids);
   if (!labels) return forward_error(labels);
   add_amodal_labels(*labels, task.spec, twin, instance_ids);
-  writer.write(frame_files::kSpec, readable_json(to_json(task.spec)));
+  writer.write(frame_files::kSpec, readable_layout(canonical_text(task.spec)));
   writer.write(frame_files::kInstances, encode_png(instance_ids));
   writer.write(frame_files::kSemantic, encode_png(semantic_image(task.spec, instance_ids)));
-  writer.write(frame_files::kLabels, readable_json(to_json(*labels)));
+  writer.write(frame_files::kLabels, readable_layout(canonical_text(*labels)));
   return {};
 }
 

@@ -9,6 +9,7 @@
 
 #include "annotate/amodal.h"
 #include "annotate/labels.h"
+#include "base/canonical_writer.h"
 #include "base/files.h"
 #include "base/philox.h"
 #include "base/sha256.h"
@@ -193,8 +194,8 @@ void labels(benchmark::State& state) {
   for (auto _ : state) {
     auto made = make_labels(frame.task.spec, frame.categories, ids);
     add_amodal_labels(*made, frame.task.spec, *frame.twin, ids);
-    benchmark::DoNotOptimize(readable_json(to_json(*made)));
-    benchmark::DoNotOptimize(readable_json(to_json(frame.task.spec)));
+    benchmark::DoNotOptimize(readable_layout(canonical_text(*made)));
+    benchmark::DoNotOptimize(readable_layout(canonical_text(frame.task.spec)));
     benchmark::DoNotOptimize(semantic_image(frame.task.spec, ids));
   }
 }

@@ -1,4 +1,4 @@
-// labels.json in and out (docs/formats/labels.md).
+// labels.json in (docs/formats/labels.md).
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -179,37 +179,6 @@ Result<std::vector<KeypointLabel>> keypoints_from_json(const Json& json, const s
   return keypoints;
 }
 
-Json to_json(const std::vector<KeypointLabel>& keypoints) {
-  Json list = Json::array();
-  for (const KeypointLabel& keypoint : keypoints) {
-    list.push_back({{"name", keypoint.name},
-                    {"px", keypoint.px},
-                    {"visibility", static_cast<int>(keypoint.visibility)}});
-  }
-  return list;
-}
-
-Json to_json(const AmodalLabel& amodal) {
-  Json corners = Json::array();
-  for (const auto& corner : amodal.box_corners_px)
-    corners.push_back(corner ? Json(*corner) : Json());
-  Json rotation = Json::array();
-  for (Eigen::Index i = 0; i < 9; ++i) rotation.push_back(amodal.pose.rotation(i / 3, i % 3));
-  const auto list = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
-  const PixelRect& box = amodal.box;
-  return {{"area_px", amodal.area_px},
-          {"in_image_px", amodal.in_image_px},
-          {"box", {box.x, box.y, box.width, box.height}},
-          {"complete", amodal.complete},
-          {"rle", amodal.rle},
-          {"pose",
-           {{"rotation", std::move(rotation)},
-            {"translation_m", list(amodal.pose.translation_m)},
-            {"scale", list(amodal.pose.scale)}}},
-          {"object_box_m", {list(amodal.object_box.low), list(amodal.object_box.high)}},
-          {"box_corners_px", std::move(corners)}};
-}
-
 Result<InstanceLabel> instance_from_json(const Json& json, const FrameLabels& frame,
                                          const std::string& what) {
   if (!json.is_object()) {
@@ -268,30 +237,6 @@ Status check_version(const Json& json, const std::string& what) {
 }
 
 }  // namespace
-
-Json to_json(const FrameLabels& labels) {
-  Json instances = Json::array();
-  for (const InstanceLabel& label : labels.instances) {
-    const PixelRect& box = label.box;
-    Json instance = {{"id", label.id},           {"category", label.category},
-                     {"name", label.name},       {"asset", label.asset},
-                     {"area_px", label.area_px}, {"box", {box.x, box.y, box.width, box.height}}};
-    if (label.amodal) {
-      instance["amodal"] = to_json(*label.amodal);
-      instance["visible_fraction"] = label.visible_fraction();
-      instance["truncation"] = label.truncation();
-    }
-    if (!label.keypoints.empty()) instance["keypoints"] = to_json(label.keypoints);
-    instances.push_back(std::move(instance));
-  }
-  return {{"version", kLabelsVersion},
-          {"width", labels.width},
-          {"height", labels.height},
-          {"categories", labels.categories},
-          {"camera", {{"focal_px", labels.focal_px}, {"center_px", labels.center_px}}},
-          {"twin_exact", labels.twin_exact},
-          {"instances", std::move(instances)}};
-}
 
 Result<FrameLabels> labels_from_json(const Json& json, const std::string& what) {
   if (!json.is_object()) {
