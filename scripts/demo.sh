@@ -6,6 +6,7 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh
 seedframe=build/release/seedframe
 campaign=${1:-results/parts}
+echo "demo.sh: renders with Blender $($seedframe doctor | sed -n 's/^ok  *Blender  *//p' | head -n 1)"
 typed=seedframe # what the user can type, if setup.sh could arrange it
 [ "$(readlink -f "$(command -v seedframe)")" = "$(readlink -f "$seedframe")" ] || typed=$seedframe
 

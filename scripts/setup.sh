@@ -2,7 +2,8 @@
 # Installs what building, testing and rendering need on Debian 12, and builds. Run again, it does only what is
 # missing. As root, or with sudo.
 #
-#   scripts/setup.sh                packages, a release build, and a link to it in PATH
+#   scripts/setup.sh                packages, a release build, a link to it in PATH, and Blender 4.5 as the one that is
+#                                   used unless another is named; where it cannot be had, Debian's 3.4.1 is
 #   scripts/setup.sh --packages     packages only
 #   scripts/setup.sh --blender 4.5  what Blender 4.5 (or 4.2, or 5.0) needs, and it: venv/blender-4.5
 set -eu
@@ -20,7 +21,7 @@ packages="
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev"
 
 # What a desktop has anyway, and Blender's module for Python is linked to.
-[ "${1:-}" != --blender ] || packages="$packages
+[ "${1:-}" = --packages ] || packages="$packages
   python3-venv
   libegl1 libgl1 libgomp1 libice6 libsm6 libx11-6 libxfixes3 libxi6 libxkbcommon0 libxrender1 libxxf86vm1"
 
@@ -46,3 +47,12 @@ fi
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
 ninja -C build/release seedframe
 echo "setup.sh: $(scripts/link_program.sh build/release/seedframe)"
+
+# venv/blender is what the program uses when no other Blender is named. A link that is there stays.
+if [ -e venv/blender ]; then
+  :
+elif scripts/blender_wheels.sh 4.5; then
+  ln -sfn blender-4.5 venv/blender
+else
+  echo "setup.sh: without it, Debian's Blender is used: $(blender --version | head -n 1)"
+fi

@@ -8,7 +8,7 @@
 set -u
 cd "$(dirname "$0")/.."
 export SEEDFRAME_CACHE=off  # what is rendered here is rendered
-unset SEEDFRAME_BLENDER # each step chooses its own
+export SEEDFRAME_BLENDER=blender  # Debian's; steps with another one say so
 what=${1:-all}
 scripts/setup.sh --packages || exit 1
 
@@ -45,9 +45,8 @@ run_version() { # of Blender: as a module of Python, if it can be installed
   echo "== tests with the real Blender $1"
   if scripts/setup.sh --blender "$1"; then
     SEEDFRAME_BLENDER=python:$PWD/venv/blender-$1
-    export SEEDFRAME_BLENDER
     run_tests release blender "$(nproc)" "$of_versions"
-    unset SEEDFRAME_BLENDER
+    SEEDFRAME_BLENDER=blender
   else
     skipped=$((skipped + 1))
     echo "SKIPPED: all tests with Blender $1, which could not be installed (is PyPI reached from here?)"

@@ -3,9 +3,9 @@
 #include <array>
 #include <cassert>
 #include <cstdio>
+#include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
 #include <openssl/evp.h>
 
 namespace seedframe {
@@ -16,7 +16,9 @@ struct Sha256::Context {
 };
 
 Sha256::Sha256() : context_(std::make_unique<Context>()) {
-  const int ok = EVP_DigestInit_ex(context_->evp, EVP_sha256(), nullptr);
+  // Fetched once: OpenSSL would look for EVP_sha256() in its lists at every use.
+  static EVP_MD* const algorithm = EVP_MD_fetch(nullptr, "SHA256", nullptr);
+  const int ok = EVP_DigestInit_ex(context_->evp, algorithm, nullptr);
   assert(ok == 1);
   (void)ok;
 }
@@ -32,7 +34,14 @@ std::string Sha256::hex() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int length = 0;
   EVP_DigestFinal_ex(context_->evp, digest.data(), &length);
-  return fmt::format("{:02x}", fmt::join(digest.data(), digest.data() + length, ""));
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  text.reserve(2 * std::size_t{length});
+  for (unsigned int i = 0; i < length; ++i) {
+    text += kDigits[digest[i] >> 4U];
+    text += kDigits[digest[i] & 15U];
+  }
+  return text;
 }
 
 std::string sha256_hex(std::string_view bytes) { return Sha256().update(bytes).hex(); }

@@ -18,7 +18,7 @@ namespace {
 
 struct DeterminismArguments {
   std::string output = "results/determinism";
-  std::string blender = "blender";
+  std::string blender;
   int width = 160;
   int most_samples = 256;
 };

@@ -91,7 +91,7 @@ std::vector<std::string> modules_of_checkout() {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(seedframe_home() / "venv", error)) {
     if (!entry.path().filename().string().starts_with("blender-")) continue;
-    found.push_back("python:" + entry.path().string());
+    found.push_back("python:" + fs::canonical(entry.path(), error).string());
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -132,15 +132,19 @@ void examine_home(Findings& findings) {
 }
 
 struct DoctorArguments {
-  std::string blender = "blender";
+  std::string blender;
   bool only_that = false;
   bool json = false;
 
-  /// The one that was named, or all that there are.
+  /// The one that was named, or all that there are: first the one that is used.
   std::vector<std::string> blenders() const {
     std::vector<std::string> all = {blender};
     if (only_that) return all;
-    for (std::string& each : modules_of_checkout()) all.push_back(std::move(each));
+    std::vector<std::string> others = modules_of_checkout();
+    if (find_blender("blender")) others.emplace_back("blender");
+    for (std::string& other : others) {
+      if (other != blender) all.push_back(std::move(other));
+    }
     return all;
   }
 };
@@ -175,7 +179,9 @@ void add_doctor_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::Option* blender = add_blender_option(*verb, arguments->blender);
   verb->add_flag("--json", arguments->json, "print it as JSON");
   verb->footer(
-      "Without --blender it looks at the one in PATH and at those that scripts/setup.sh has made.\n"
+      "Without --blender it looks at the one that is used then, first, and at the others: those "
+      "that\n"
+      "scripts/setup.sh has made, and the one in PATH.\n"
       "Example: seedframe doctor --blender /opt/blender/blender");
   verb->callback([arguments, blender, on_selected] {
     arguments->only_that = blender->count() > 0;

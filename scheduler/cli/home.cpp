@@ -76,4 +76,11 @@ fs::path worker_preload() {
   return fs::exists(installed, error) ? installed : program / kLibrary;
 }
 
+std::string default_blender() {
+  std::error_code error;
+  // Where the link leads, so that what is rendered is told by its version.
+  const fs::path venv = fs::canonical(seedframe_home() / "venv/blender", error);
+  return error ? "blender" : "python:" + venv.string();
+}
+
 }  // namespace seedframe

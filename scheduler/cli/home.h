@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "base/error.h"
 
@@ -23,5 +24,10 @@ std::filesystem::path cache_folder();
 /// The library that is preloaded into workers (render/worker_conditions.h): beside the program, or
 /// in lib/seedframe of the place that it is installed in.
 std::filesystem::path worker_preload();
+
+/// What --blender names when it is not given: the module in venv/blender of a checkout, which
+/// scripts/setup.sh links to the version that it has installed, or else "blender", looked up in
+/// PATH.
+std::string default_blender();
 
 }  // namespace seedframe

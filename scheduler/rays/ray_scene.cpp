@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "rays/hit_point.h"
 #include "rays/projected_box.h"
 #include "rays/ray_packet.h"
 #include "rays/scene_trees.h"
@@ -26,24 +27,20 @@ class NormalShader {
     }
   }
 
-  std::array<float, 3> normal(const RayPacket& packet, std::size_t lane) const {
+  std::array<float, 3> normal(const RayPacket& packet, std::size_t lane,
+                              const HitPoint& hit) const {
     const auto& [normals, camera_from_normal] =
         instances_[static_cast<std::size_t>(packet.hit(lane))];
     const auto* corner = normals + std::size_t{3} * packet.rays.hit.primID[lane];
-    const float u = packet.rays.hit.u[lane];
-    const float v = packet.rays.hit.v[lane];
+    const auto u = static_cast<float>(hit.u);
+    const auto v = static_cast<float>(hit.v);
     const float w = 1.0f - u - v;
     const Eigen::Vector3f smooth(w * corner[0][0] + u * corner[1][0] + v * corner[2][0],
                                  w * corner[0][1] + u * corner[1][1] + v * corner[2][1],
                                  w * corner[0][2] + u * corner[1][2] + v * corner[2][2]);
-    // Embree's normal is the triangle's, in object space.
-    const Eigen::Vector3f flat(packet.rays.hit.Ng_x[lane], packet.rays.hit.Ng_y[lane],
-                               packet.rays.hit.Ng_z[lane]);
-    const Eigen::Vector3f ray(packet.rays.ray.dir_x[lane], packet.rays.ray.dir_y[lane], -1.0f);
-    const bool from_behind = (camera_from_normal * flat).dot(ray) > 0.0f;
     const Eigen::Vector3f seen = camera_from_normal * smooth;
     const float length = seen.norm();
-    const float scale = length == 0.0f ? 0.0f : (from_behind ? -1.0f : 1.0f) / length;
+    const float scale = length == 0.0f ? 0.0f : (hit.from_behind ? -1.0f : 1.0f) / length;
     return {scale * seen.x(), scale * seen.y(), scale * seen.z()};
   }
 
@@ -120,7 +117,10 @@ RayImage RayScene::trace(const TraceOptions& options) const {
   image.instance.resize(pixels);
   if (options.depth) image.depth.resize(pixels);
   if (options.normals) image.normals.resize(pixels);
-  const NormalShader shader(options.normals ? scene_->instances : std::vector<RayInstance>{});
+  const bool points_wanted = options.portable_depth || options.normals;
+  const std::vector<RayInstance> none;
+  const HitPoints points(points_wanted ? scene_->instances : none);
+  const NormalShader shader(options.normals ? scene_->instances : none);
   constexpr int kRows = RayPacket::kRows;
   constexpr int kColumns = RayPacket::kColumns;
   for_each_index((camera.height + kRows - 1) / kRows, options.threads, [&](int strip) {
@@ -136,7 +136,10 @@ RayImage RayScene::trace(const TraceOptions& options) const {
         const int hit = packet.hit(lane);
         image.instance[pixel] = hit;
         if (options.depth) image.depth[pixel] = hit < 0 ? kNoDepth : packet.rays.ray.tfar[lane];
-        if (options.normals && hit >= 0) image.normals[pixel] = shader.normal(packet, lane);
+        if (!points_wanted || hit < 0) continue;
+        const HitPoint point = points.at(packet, lane);
+        if (options.portable_depth) image.depth[pixel] = static_cast<float>(point.depth);
+        if (options.normals) image.normals[pixel] = shader.normal(packet, lane, point);
       }
     }
   });

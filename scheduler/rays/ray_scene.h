@@ -39,8 +39,10 @@ struct RayImage {
 
 struct TraceOptions {
   bool depth = false;
+  /// With `depth`: the same bits on every CPU, which costs a little more.
+  bool portable_depth = false;
   /// Shading normals in the camera's frame, of unit length, on the side that the ray comes from; 0
-  /// where it hits nothing.
+  /// where it hits nothing. The same bits on every CPU.
   bool normals = false;
   int threads = 1;
 };

@@ -110,8 +110,10 @@ Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers
     trim();
     RayScene scene(pixel_camera(spec), std::move(instances));
     const bool asked = passes == Passes::kAsked;
-    RayImage image =
-        scene.trace({.depth = true, .normals = asked && spec.render.normal, .threads = threads_});
+    RayImage image = scene.trace({.depth = true,
+                                  .portable_depth = asked && spec.render.depth,
+                                  .normals = asked && spec.render.normal,
+                                  .threads = threads_});
     return Twin(std::move(scene), std::move(image), std::move(ids), asked && spec.render.depth);
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::kExhausted,

@@ -30,19 +30,19 @@ class PinnedDataset : public ProgramTest {
 TEST_F(PinnedDataset, LabelsOfTheParts) {
   label("parts.yaml");
   EXPECT_EQ(hash_of("c/frames"),
-            "a3b5522e5a147badbe75ac720beefe8453481b503ab0450e8de104736f239727");
+            "cf9f0d690ff05069843b37a7ae8b8b714ea88c7c21d7d337cfc4219ba635661d");
 }
 
 TEST_F(PinnedDataset, LabelsOfTheRobocupScene) {
   label("robocup_spl.yaml");
   EXPECT_EQ(hash_of("c/frames"),
-            "b2e58fb577299e5309aefceafa9e98a9d043b070352db3114948ca370e5ac30b");
+            "d1be33cf7f551b15d1858c35caa9d179c621d9d409fa1f43f4b986a3291aac3b");
 }
 
 TEST_F(PinnedDataset, LabelsOfTheTyolScene) {
   label("tyol_multi_8_target.yaml");
   EXPECT_EQ(hash_of("c/frames"),
-            "cf884fc538b143ac1fa8d32bdb413147770fb3357283259d8493a2926d65cb58");
+            "3b64b4417a809a509679b2eb26e670244d5935a6dd4d8d934529944a2a7231f0");
 }
 
 TEST_F(PinnedDataset, ExportsInAllFormats) {
