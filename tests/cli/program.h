@@ -15,7 +15,6 @@
 
 #include "base/canonical_json.h"
 #include "base/files.h"
-#include "tests/fixtures/real_blender.h"
 #include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
@@ -39,8 +38,8 @@ class ProgramTest : public ::testing::Test {
     const pid_t pid = ::fork();
     if (pid != 0) return pid;
     if (::chdir(folder_.c_str()) != 0) ::_exit(126);
-    ::setenv("SEEDFRAME_CACHE", "off", 1);  // so that what is rendered is rendered
-    ::setenv("SEEDFRAME_BLENDER", test_blender().c_str(), 1);  // not what the checkout has
+    ::setenv("SEEDFRAME_CACHE", "off", 1);        // so that what is rendered is rendered
+    ::setenv("SEEDFRAME_BLENDER", "blender", 0);  // not what the checkout has, unless asked for
     for (const std::string& entry : environment) ::putenv(const_cast<char*>(entry.c_str()));
     if (std::freopen("out.txt", "w", stdout) == nullptr) ::_exit(126);
     if (std::freopen("err.txt", "w", stderr) == nullptr) ::_exit(126);

@@ -262,6 +262,31 @@ TEST(RayScene, ImagesWhoseSidesAreNotWholePacketsAreTracedToTheLastPixel) {
                           [](float d) { return std::abs(d - 1.0F) < 1e-5F; }));
 }
 
+TEST(RayScene, PortableDepthAndNormalsAreThoseOfTheTrianglesPlane) {
+  // A box turned about y by an angle whose sine is 0.6 and whose cosine is 0.8.
+  Eigen::Affine3d pose = Eigen::Affine3d::Identity();
+  pose.linear() << 0.8, 0, 0.6, 0, 1, 0, -0.6, 0, 0.8;
+  pose.translation() = Eigen::Vector3d(0, 0, -7);
+  RayInstance box = box_of({-2, -2, -2}, {2, 2, 1});
+  box.camera_from_object = pose;
+  const RayScene scene(kCamera, {box});
+  const RayImage image = scene.trace({.depth = true, .portable_depth = true, .normals = true});
+  const Eigen::Vector3d up(0.6, 0, 0.8);  // of the face z = 1
+  int seen = 0;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      const std::size_t pixel = image.index(x, y);
+      if (image.instance[pixel] < 0 || image.normals[pixel][2] < 0.7F) continue;
+      const Eigen::Vector3d ray(kCamera.ray_x(x), kCamera.ray_y(y), -1.0);
+      const double depth = up.dot(pose * Eigen::Vector3d(0, 0, 1)) / up.dot(ray);
+      ASSERT_FLOAT_EQ(image.depth[pixel], static_cast<float>(depth)) << x << " " << y;
+      EXPECT_NEAR(image.normals[pixel][0], 0.6F, 1e-6F);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 500);
+}
+
 TEST(RayScene, ASilhouetteIsTheInstanceAlone) {
   const std::vector<RayInstance> instances = {ball_at(0.9, 0.3, -8), ball_at(0, 0, -5),
                                               ball_at(-3.9, 0, -5)};
