@@ -6,7 +6,9 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh
 seedframe=build/release/seedframe
 campaign=${1:-results/parts}
-echo "demo.sh: renders with Blender $($seedframe doctor | sed -n 's/^ok  *Blender  *//p' | head -n 1)"
+blender=blender # Debian's
+[ ! -e venv/blender ] || blender=$(readlink -f venv/blender)
+echo "demo.sh: renders with ${SEEDFRAME_BLENDER:-$blender}"
 typed=seedframe # what the user can type, if setup.sh could arrange it
 [ "$(readlink -f "$(command -v seedframe)")" = "$(readlink -f "$seedframe")" ] || typed=$seedframe
 

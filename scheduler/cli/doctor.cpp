@@ -179,9 +179,8 @@ void add_doctor_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::Option* blender = add_blender_option(*verb, arguments->blender);
   verb->add_flag("--json", arguments->json, "print it as JSON");
   verb->footer(
-      "Without --blender it looks at the one that is used then, first, and at the others: those "
-      "that\n"
-      "scripts/setup.sh has made, and the one in PATH.\n"
+      "Without --blender it looks first at the one that is used then, and at the others after it:\n"
+      "those that scripts/setup.sh has made, and the one in PATH.\n"
       "Example: seedframe doctor --blender /opt/blender/blender");
   verb->callback([arguments, blender, on_selected] {
     arguments->only_that = blender->count() > 0;

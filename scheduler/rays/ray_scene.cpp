@@ -117,7 +117,8 @@ RayImage RayScene::trace(const TraceOptions& options) const {
   image.instance.resize(pixels);
   if (options.depth) image.depth.resize(pixels);
   if (options.normals) image.normals.resize(pixels);
-  const bool points_wanted = options.portable_depth || options.normals;
+  const bool portable_depth = options.depth && options.portable_depth;
+  const bool points_wanted = portable_depth || options.normals;
   const std::vector<RayInstance> none;
   const HitPoints points(points_wanted ? scene_->instances : none);
   const NormalShader shader(options.normals ? scene_->instances : none);
@@ -138,7 +139,7 @@ RayImage RayScene::trace(const TraceOptions& options) const {
         if (options.depth) image.depth[pixel] = hit < 0 ? kNoDepth : packet.rays.ray.tfar[lane];
         if (!points_wanted || hit < 0) continue;
         const HitPoint point = points.at(packet, lane);
-        if (options.portable_depth) image.depth[pixel] = static_cast<float>(point.depth);
+        if (portable_depth) image.depth[pixel] = static_cast<float>(point.depth);
         if (options.normals) image.normals[pixel] = shader.normal(packet, lane, point);
       }
     }

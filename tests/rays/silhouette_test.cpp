@@ -95,40 +95,36 @@ void expect_every_pixel(const Silhouette& silhouette, const RayInstance& instanc
   EXPECT_EQ(silhouette.area_px, area);
 }
 
-TEST(Silhouette, IsTheInstanceAloneWhateverHidesIt) {
-  for (std::uint64_t seed = 0; seed < 4; ++seed) {
-    const std::vector<RayInstance> instances = cubes_anywhere(12, seed);
-    const RayScene scene(kPinhole, instances);
-    const RayImage image = scene.trace({.depth = true});
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-      SCOPED_TRACE(std::to_string(seed) + " " + std::to_string(i));
-      expect_every_pixel(scene.silhouette(i, image), instances[i]);
-    }
-  }
-}
-
-TEST(Silhouette, OfAClosedMeshIsThatOfItsRays) {
-  for (const auto& [around, across] : {std::pair(5U, 3U), {24U, 12U}, {90U, 60U}}) {
-    const auto instances = anywhere(bumpy_ring(around, across, true), 20, around);
-    ASSERT_FALSE(instances[0].mesh->edges().empty());
-    const RayScene scene(kPinhole, instances);
-    const RayImage image = scene.trace({.depth = true});
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-      SCOPED_TRACE(std::to_string(around) + " " + std::to_string(i));
-      expect_every_pixel(scene.silhouette(i, image), instances[i]);
-    }
-  }
-}
-
-TEST(Silhouette, OfAnOpenMeshIsThatOfItsRays) {
-  const auto instances = anywhere(bumpy_ring(24, 12, false), 12, 5);
-  ASSERT_TRUE(instances[0].mesh->edges().empty());
+/// Each silhouette of a scene against what every pixel sees.
+void expect_silhouettes_of_rays(const std::vector<RayInstance>& instances) {
   const RayScene scene(kPinhole, instances);
   const RayImage image = scene.trace({.depth = true});
   for (std::size_t i = 0; i < instances.size(); ++i) {
     SCOPED_TRACE(i);
     expect_every_pixel(scene.silhouette(i, image), instances[i]);
   }
+}
+
+TEST(Silhouette, IsTheInstanceAloneWhateverHidesIt) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_silhouettes_of_rays(cubes_anywhere(12, seed));
+  }
+}
+
+TEST(Silhouette, OfAClosedMeshIsThatOfItsRays) {
+  for (const auto& [around, across] : {std::pair(5U, 3U), {24U, 12U}, {90U, 60U}}) {
+    SCOPED_TRACE(around);
+    const auto instances = anywhere(bumpy_ring(around, across, true), 20, around);
+    ASSERT_FALSE(instances[0].mesh->edges().empty());
+    expect_silhouettes_of_rays(instances);
+  }
+}
+
+TEST(Silhouette, OfAnOpenMeshIsThatOfItsRays) {
+  const auto instances = anywhere(bumpy_ring(24, 12, false), 12, 5);
+  ASSERT_TRUE(instances[0].mesh->edges().empty());
+  expect_silhouettes_of_rays(instances);
 }
 
 TEST(Silhouette, IsTheSameWhetherDepthIsKnownOrNot) {
