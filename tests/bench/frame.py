@@ -57,7 +57,7 @@ def stages(times, case):
 def table(times, rounds, study_ms):
     lines = ["# What a frame costs the program itself", "",
              "Made by `scripts/bench.sh frame` (`tests/bench/frame.py`): CPU milliseconds of one core from the worker's file to the",
-             f"files of the frame, Blender apart; medians of {rounds} round{"" if rounds == 1 else "s"}. Trees of the meshes are there. `passes` reads the",
+             f"files of the frame, Blender apart; medians of {rounds} round{'s' if rounds > 1 else ''}. Trees of the meshes are there. `passes` reads the",
              "worker's file and hashes its pixels; `files` is what the others leave of the whole: the copy of the passes, writing,",
              "and folders.", "",
              "| scene | size | all | " + " | ".join(STAGES) + " |", "|---|---|" + "---:|" * (len(STAGES) + 1)]
