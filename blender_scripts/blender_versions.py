@@ -97,9 +97,14 @@ def set_multilayer_file(image_settings):
         image_settings.use_exr_interleave = True
 
 
+def set_path_guiding(cycles, wanted):
+    if hasattr(cycles, "use_guiding"):  # 3.4
+        cycles.use_guiding = wanted
+    elif wanted:
+        raise ValueError("this Blender has no path guiding, which came with 3.4")
+
+
 def set_sampling(cycles):
     """Of how light is sampled, what some versions lack."""
-    if hasattr(cycles, "use_guiding"):  # 3.4
-        cycles.use_guiding = False
     if hasattr(cycles, "use_light_tree"):  # 3.5
         cycles.use_light_tree = True

@@ -34,9 +34,7 @@ class PassRenderer:
         _set_denoiser(cycles, settings["denoise"])
         cycles.filter_width = settings["filter_width_px"]
         cycles.sample_clamp_indirect = settings["clamp_indirect"]
-        for limit in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces",
-                      "volume_bounces", "transparent_max_bounces"):
-            setattr(cycles, limit, settings["max_bounces"])
+        _set_levers(self._scene, settings["max_bounces"], settings.get("levers", {}))
         self._view_layer.use_pass_z = settings["depth"]
         self._view_layer.use_pass_normal = settings["normal"]
 
@@ -57,7 +55,8 @@ def _set_constants(scene):
     render.dither_intensity = 0.0
     render.use_motion_blur = False
     render.use_border = False
-    render.use_simplify = False
+    render.simplify_subdivision_render = 0
+    render.simplify_child_particles_render = 0.0
     render.use_compositing = False
     render.use_sequencer = False
     _set_cycles(scene.cycles)
@@ -73,15 +72,30 @@ def _set_constants(scene):
 
 def _set_cycles(cycles):
     cycles.time_limit = 0.0
-    cycles.light_sampling_threshold = 0.0
     cycles.pixel_filter_type = "BLACKMAN_HARRIS"
     cycles.caustics_reflective = False
     cycles.caustics_refractive = False
-    cycles.blur_glossy = 0.0
-    cycles.sample_clamp_direct = 0.0
     cycles.use_fast_gi = False
     cycles.use_auto_tile = False
     blender_versions.set_sampling(cycles)
+
+
+def _set_levers(scene, max_bounces, levers):
+    cycles = scene.cycles
+    bounces = levers.get("bounces", {})
+    cycles.max_bounces = cycles.volume_bounces = max_bounces
+    cycles.diffuse_bounces = bounces.get("diffuse", max_bounces)
+    cycles.glossy_bounces = bounces.get("glossy", max_bounces)
+    cycles.transmission_bounces = bounces.get("transmission", max_bounces)
+    cycles.transparent_max_bounces = bounces.get("transparent", max_bounces)
+    cycles.light_sampling_threshold = levers.get("light_threshold", 0.0)
+    cycles.sample_clamp_direct = levers.get("clamp_direct", 0.0)
+    cycles.blur_glossy = levers.get("filter_glossy", 0.0)
+    blender_versions.set_path_guiding(cycles, levers.get("path_guiding", False))
+    # Textures are limited as part of "simplifying", of which nothing else is used.
+    limit = levers.get("texture_limit_px", 0)
+    scene.render.use_simplify = limit > 0
+    cycles.texture_limit_render = str(limit) if limit > 0 else "OFF"
 
 
 def _set_adaptive(cycles, adaptive):

@@ -6,8 +6,8 @@ import os
 import threading
 import time
 
-PROTOCOL = 4
-SPEC_VERSION = 5
+PROTOCOL = 5
+SPEC_VERSIONS = (5, 6)
 
 
 class ProtocolError(Exception):
@@ -67,6 +67,7 @@ class Done:
     attempt: int
     build_s: float
     render_s: float
+    cpu_s: float
     type: str = "done"
 
 

@@ -17,7 +17,7 @@ import bpy  # noqa: E402
 import cpu_kernel  # noqa: E402
 import render_devices  # noqa: E402
 from passes import PassRenderer, sharp_output  # noqa: E402
-from protocol import SPEC_VERSION, Channel, Done, Failed, Ready  # noqa: E402
+from protocol import SPEC_VERSIONS, Channel, Done, Failed, Ready  # noqa: E402
 from scene_builder import SceneBuilder  # noqa: E402
 
 _LONGEST_ERROR = 2000
@@ -40,11 +40,11 @@ def main():
 
 
 def _answer(request, builder, renderer):
-    begin = time.perf_counter()
+    begin, cpu_begin = time.perf_counter(), time.process_time()
     try:
-        if request.spec.get("version") != SPEC_VERSION:
+        if request.spec.get("version") not in SPEC_VERSIONS:
             raise ValueError(f"frame spec of version {request.spec.get('version')}; this worker reads "
-                             f"{SPEC_VERSION}")
+                             f"{SPEC_VERSIONS}")
         builder.build(request.spec, request.meshes, request.textures)
         built = time.perf_counter()
         renderer.render(request.spec["render"], request.output, request.frame_id)
@@ -56,7 +56,8 @@ def _answer(request, builder, renderer):
     except Exception as error:  # one bad frame must not cost the worker
         text = f"{type(error).__name__}: {error}".strip()
         return Failed(request.frame, request.attempt, text[-_LONGEST_ERROR:])
-    return Done(request.frame, request.attempt, built - begin, time.perf_counter() - built)
+    return Done(request.frame, request.attempt, built - begin, time.perf_counter() - built,
+                time.process_time() - cpu_begin)
 
 
 def _ready(device):

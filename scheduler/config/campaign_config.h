@@ -67,6 +67,7 @@ struct RenderConfig {
   int max_bounces = 6;
   double filter_width_px = 1.5;
   double clamp_indirect = 10.0;
+  RenderLevers levers;
   bool depth = false;
   bool normal = false;
   RenderDevice device = RenderDevice::kCpu;

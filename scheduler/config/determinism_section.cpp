@@ -53,6 +53,12 @@ Determinism read_determinism(SectionReader& campaign, const RenderConfig& render
         "before (docs/determinism.md): leave it out, or give the promise up with "
         "'determinism: none'");
   }
+  if (render.levers.path_guiding && determinism.mode != Mode::kNone) {
+    campaign.errors().add(
+        render.place,
+        "path_guiding learns from samples in the order in which threads finish them, so no two "
+        "renderings are the same: leave it out, or give the promise up with 'determinism: none'");
+  }
   if (render.device != RenderDevice::kCpu && determinism.mode == Mode::kPortable) {
     campaign.errors().add(render.place,
                           fmt::format("determinism: portable pins kernels of the CPU, and "

@@ -19,7 +19,7 @@ constexpr long long kMostSamples = 1 << 20;
 AdaptiveSampling read_adaptive(SectionReader& render, int samples) {
   AdaptiveSampling adaptive;
   const auto node = render.find("adaptive");
-  if (!node) return adaptive;
+  if (!node || node->is_null()) return adaptive;  // null: --set takes back what a config says
   SectionReader section(*node, render.errors());
   section.require("threshold");
   section.require("min_samples");
@@ -33,6 +33,51 @@ AdaptiveSampling read_adaptive(SectionReader& render, int samples) {
                                     adaptive.min_samples, samples));
   }
   return adaptive;
+}
+
+BounceLimits read_bounces(SectionReader& render, int most) {
+  BounceLimits bounces;
+  const auto node = render.find("bounces");
+  if (!node) return bounces;
+  SectionReader section(*node, render.errors());
+  for (const auto& [limit, kind] :
+       {std::pair(&bounces.diffuse, "diffuse"), std::pair(&bounces.glossy, "glossy"),
+        std::pair(&bounces.transmission, "transmission"),
+        std::pair(&bounces.transparent, "transparent")}) {
+    if (section.find(kind)) *limit = static_cast<int>(section.integer(kind, most, 0, most));
+  }
+  section.refuse_other_keys();
+  return bounces;
+}
+
+double read_limit(SectionReader& render, const char* key, double fallback) {
+  const double limit = render.constant(key, fallback);
+  if (limit >= 0.0) return limit;
+  render.errors().add(render.node().find(key)->place(), "expected 0 (no limit) or more");
+  return fallback;
+}
+
+/// The sizes that Cycles knows, which are powers of two.
+int read_texture_limit(SectionReader& render) {
+  constexpr int kLeast = 128;
+  constexpr int kMost = 8192;
+  const auto px = static_cast<int>(render.integer("texture_limit_px", 0, 0, kMost));
+  if (px == 0 || (px >= kLeast && (px & (px - 1)) == 0)) return px;
+  render.errors().add(render.node().find("texture_limit_px")->place(),
+                      fmt::format("expected 0 (no limit) or a power of two from {} to {}, found {}",
+                                  kLeast, kMost, px));
+  return 0;
+}
+
+RenderLevers read_levers(SectionReader& render, int max_bounces) {
+  RenderLevers levers;
+  levers.bounces = read_bounces(render, max_bounces);
+  levers.light_threshold = read_limit(render, "light_threshold", 0.0);
+  levers.clamp_direct = read_limit(render, "clamp_direct", 0.0);
+  levers.filter_glossy = read_limit(render, "filter_glossy", 0.0);
+  levers.texture_limit_px = read_texture_limit(render);
+  levers.path_guiding = render.flag("path_guiding", false);
+  return levers;
 }
 
 /// One of `names`, which are those of an enum in its order; absent: the first.
@@ -61,10 +106,8 @@ RenderConfig read_render(SectionReader& campaign, Diagnostics& errors) {
   render.max_bounces =
       static_cast<int>(section.integer("max_bounces", render.max_bounces, 0, 1024));
   render.filter_width_px = section.positive("filter_width_px", render.filter_width_px);
-  render.clamp_indirect = section.constant("clamp_indirect", render.clamp_indirect);
-  if (render.clamp_indirect < 0.0) {
-    errors.add(node->find("clamp_indirect")->place(), "expected 0 (no limit) or more");
-  }
+  render.clamp_indirect = read_limit(section, "clamp_indirect", render.clamp_indirect);
+  render.levers = read_levers(section, render.max_bounces);
   for (const std::string& pass : section.texts("passes")) {
     if (pass == "depth") {
       render.depth = true;

@@ -41,7 +41,8 @@ WorkerMessage read_message(const Json& json) {
   const FrameJob job = {integer_of<std::int64_t>(json.at("frame")),
                         integer_of<int>(json.at("attempt"))};
   if (type == "done") {
-    return DoneMessage{job, json.at("build_s").get<double>(), json.at("render_s").get<double>()};
+    return DoneMessage{job, json.at("build_s").get<double>(), json.at("render_s").get<double>(),
+                       json.at("cpu_s").get<double>()};
   }
   if (type == "failed") return FailedMessage{job, json.at("error").get<std::string>()};
   throw Json::other_error::create(501, "unknown type '" + type + "'", nullptr);

@@ -12,7 +12,7 @@
 
 namespace seedframe {
 
-inline constexpr int kWorkerProtocol = 4;
+inline constexpr int kWorkerProtocol = 5;
 
 /// Everything a worker needs to render one frame.
 struct RenderRequest {
@@ -28,6 +28,7 @@ struct RenderTimings {
   double build_s = 0.0;   ///< in the worker: from the message to a complete scene
   double render_s = 0.0;  ///< in the worker: Cycles, and writing the EXR
   double total_s = 0.0;   ///< in the scheduler: from sending the request to its answer
+  double cpu_s = 0.0;     ///< of all threads of the worker, for both
 };
 
 /// The worker can take frames. What it says of itself belongs in the provenance.
@@ -54,6 +55,7 @@ struct DoneMessage {
   FrameJob job;
   double build_s = 0.0;
   double render_s = 0.0;
+  double cpu_s = 0.0;
 };
 
 struct FailedMessage {

@@ -97,9 +97,12 @@ void WorkerPool::Loop::take_done(Slot& slot, const DoneMessage& done, Schedule& 
   schedule.rendered(done.job);
   rendered_by_[done.job] = slot.start;
   const auto total = executor_.now() - slot.since;
-  timeout_.rendered(std::chrono::ceil<std::chrono::milliseconds>(total));
+  if (options_.equal_frames) {
+    timeout_.rendered(std::chrono::ceil<std::chrono::milliseconds>(total));
+  }
   const std::chrono::duration<double> total_s = total;
-  client_.rendered(done.job, {done.build_s, done.render_s, total_s.count()}, slot.number);
+  client_.rendered(done.job, {done.build_s, done.render_s, total_s.count(), done.cpu_s},
+                   slot.number);
 }
 
 void WorkerPool::Loop::check_deadline(Slot& slot) {

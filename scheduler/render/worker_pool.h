@@ -19,6 +19,9 @@ struct PoolOptions {
   int workers = 1;
   AttemptLimits attempts;
   std::chrono::milliseconds frame_timeout = std::chrono::seconds(600);  ///< see FrameTimeout
+  /// Frames take about as long as each other, so that FrameTimeout may learn from them; else
+  /// frame_timeout alone counts.
+  bool equal_frames = true;
   std::chrono::milliseconds start_timeout = std::chrono::seconds(120);
   /// A worker that says nothing for so long hangs, whatever it may still take over its frame.
   std::chrono::milliseconds heartbeat_timeout = std::chrono::seconds(120);
@@ -26,9 +29,6 @@ struct PoolOptions {
   int frames_per_worker = 2000;
   /// A worker that has grown above this (resident, bytes) is replaced after its frame; 0: never.
   std::int64_t worker_memory_bytes = 0;
-  /// No frame is handed out before all workers that it begins with are ready, so that each gets one
-  /// of the first frames, however long it took to start.
-  bool begin_together = false;
   /// No new frame starts while so many wait for their verdict, which bounds the disk they take.
   int max_unjudged = 64;
 };

@@ -11,19 +11,25 @@
 namespace seedframe {
 namespace fs = std::filesystem;
 
-Result<CampaignSource> read_source(const fs::path& file, const std::vector<std::string>& set,
-                                   const fs::path& home, const std::vector<std::string>& allowed) {
+Result<std::vector<Override>> read_overrides(const std::vector<std::string>& set) {
   std::vector<Override> overrides;
   for (const std::string& change : set) {
     Result<Override> parsed = parse_override(change);
     if (!parsed) return forward_error(parsed);
     overrides.push_back(std::move(*parsed));
   }
+  return overrides;
+}
+
+Result<CampaignSource> read_source(const fs::path& file, const std::vector<std::string>& set,
+                                   const fs::path& home, const std::vector<std::string>& allowed) {
+  Result<std::vector<Override>> overrides = read_overrides(set);
+  if (!overrides) return forward_error(overrides);
   Result<std::string> text = read_file(file, kLargestConfig);
   if (!text) return fail(ErrorKind::kInput, "{}", text.error().message);
   AllowedFolders folders({file.parent_path(), ".", "/usr/share"});
   for (const std::string& folder : allowed) folders.add(folder);
-  return CampaignSource{std::move(*text), file, std::move(overrides), home, std::move(folders)};
+  return CampaignSource{std::move(*text), file, std::move(*overrides), home, std::move(folders)};
 }
 
 Result<PreparedCampaign> prepare(CampaignSource source) {

@@ -13,6 +13,9 @@
 
 namespace seedframe {
 
+/// Of --set: each as "path=value".
+Result<std::vector<Override>> read_overrides(const std::vector<std::string>& set);
+
 /// `set`: overrides as "path=value". Allows the working directory, /usr/share (for colour configs)
 /// and `allowed`.
 Result<CampaignSource> read_source(const std::filesystem::path& file,

@@ -17,6 +17,7 @@ CampaignSettings settings_of(const CampaignConfig& config) {
   settings.render.max_bounces = config.render.max_bounces;
   settings.render.filter_width_px = config.render.filter_width_px;
   settings.render.clamp_indirect = config.render.clamp_indirect;
+  settings.render.levers = config.render.levers;
   settings.render.depth = config.render.depth;
   settings.render.normal = config.render.normal;
   settings.device = config.render.device;

@@ -91,6 +91,27 @@ void write_adaptive(CanonicalWriter& out, const AdaptiveSampling& adaptive) {
   out.field("threshold", adaptive.threshold);
 }
 
+void write_bounces(CanonicalWriter& out, const BounceLimits& bounces) {
+  for (const auto& [limit, kind] :
+       {std::pair(bounces.diffuse, "diffuse"), std::pair(bounces.glossy, "glossy"),
+        std::pair(bounces.transmission, "transmission"),
+        std::pair(bounces.transparent, "transparent")}) {
+    if (limit) out.field(kind, static_cast<double>(*limit));
+  }
+}
+
+/// Only what is used, so that frames without them are as they were before there were any.
+void write_levers(CanonicalWriter& out, const RenderLevers& levers) {
+  if (levers.bounces != BounceLimits{}) out.object("bounces", levers.bounces, write_bounces);
+  if (levers.clamp_direct > 0.0) out.field("clamp_direct", levers.clamp_direct);
+  if (levers.filter_glossy > 0.0) out.field("filter_glossy", levers.filter_glossy);
+  if (levers.light_threshold > 0.0) out.field("light_threshold", levers.light_threshold);
+  if (levers.path_guiding) out.field("path_guiding", levers.path_guiding);
+  if (levers.texture_limit_px > 0) {
+    out.field("texture_limit_px", static_cast<double>(levers.texture_limit_px));
+  }
+}
+
 void write_render(CanonicalWriter& out, const RenderSettings& render) {
   if (render.adaptive.threshold > 0.0) {
     out.object("adaptive", render.adaptive, write_adaptive);
@@ -100,6 +121,7 @@ void write_render(CanonicalWriter& out, const RenderSettings& render) {
   out.field("depth", render.depth);
   out.field("filter_width_px", render.filter_width_px);
   out.field("height", static_cast<double>(render.height));
+  if (render.levers != RenderLevers{}) out.object("levers", render.levers, write_levers);
   out.field("max_bounces", static_cast<double>(render.max_bounces));
   out.field("normal", render.normal);
   out.field("samples", static_cast<double>(render.samples));
@@ -125,7 +147,9 @@ void write_frame_spec(CanonicalWriter& out, const FrameSpec& spec) {
   out.objects("lights", spec.lights, write_light);
   out.objects("materials", spec.materials, write_material);
   out.object("render", spec.render, write_render);
-  out.field("version", static_cast<double>(kFrameSpecVersion));
+  const bool has_levers = spec.render.levers != RenderLevers{};
+  out.field("version",
+            static_cast<double>(has_levers ? kFrameSpecVersion : kOldestFrameSpecVersion));
   out.object("world", spec.world, write_world);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@
 
 namespace seedframe {
 
-inline constexpr int kFrameSpecVersion = 5;
+/// The newest; a frame that needs nothing of it is of the version before, and keeps its id.
+inline constexpr int kFrameSpecVersion = 6;
+inline constexpr int kOldestFrameSpecVersion = 5;
 
 /// Linear RGB, Rec.709 primaries.
 using Rgb = std::array<double, 3>;
@@ -38,6 +41,26 @@ struct AdaptiveSampling {
 enum class Denoise { kOff, kOidn, kOidnFast };
 inline constexpr std::array<const char*, 3> kDenoiseNames = {"off", "oidn", "oidn_fast"};
 
+/// How often a path may go on after surfaces of a kind; none: as often as max_bounces says.
+struct BounceLimits {
+  std::optional<int> diffuse, glossy, transmission, transparent;
+
+  bool operator==(const BounceLimits&) const = default;
+};
+
+/// What makes a picture cheaper or less noisy, and may change what is expected of it. All are off
+/// by themselves, and were not there before version 6.
+struct RenderLevers {
+  BounceLimits bounces;
+  double light_threshold = 0.0;  ///< lights that would add less, scene-linear, are often left out
+  double clamp_direct = 0.0;     ///< limit of what one direct sample adds, scene-linear; 0: none
+  double filter_glossy = 0.0;    ///< blurs reflections after a rough bounce (Cycles' blur_glossy)
+  int texture_limit_px = 0;      ///< larger images are halved until their sides fit; 0: never
+  bool path_guiding = false;     ///< directions learnt while rendering (Open PGL)
+
+  bool operator==(const RenderLevers&) const = default;
+};
+
 struct RenderSettings {
   int width = 0;           ///< pixels
   int height = 0;          ///< pixels
@@ -50,6 +73,7 @@ struct RenderSettings {
   bool normal = false;          ///< ask for the Normal pass
   AdaptiveSampling adaptive;
   Denoise denoise = Denoise::kOff;
+  RenderLevers levers;
 };
 
 /// A camera at the origin, looking down -z, y up.

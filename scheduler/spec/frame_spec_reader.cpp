@@ -29,6 +29,25 @@ Enum named(const Json& json, const Names& names, const char* what) {
   return static_cast<Enum>(found - names.begin());
 }
 
+RenderLevers levers_from_json(const Json& json) {
+  RenderLevers levers;
+  const Json bounces = json.value("bounces", Json::object());
+  for (const auto& [limit, kind] :
+       {std::pair(&levers.bounces.diffuse, "diffuse"), std::pair(&levers.bounces.glossy, "glossy"),
+        std::pair(&levers.bounces.transmission, "transmission"),
+        std::pair(&levers.bounces.transparent, "transparent")}) {
+    if (bounces.contains(kind)) *limit = integer_of<int>(bounces.at(kind));
+  }
+  levers.light_threshold = json.value("light_threshold", 0.0);
+  levers.clamp_direct = json.value("clamp_direct", 0.0);
+  levers.filter_glossy = json.value("filter_glossy", 0.0);
+  levers.path_guiding = json.value("path_guiding", false);
+  if (json.contains("texture_limit_px")) {
+    levers.texture_limit_px = integer_of<int>(json.at("texture_limit_px"));
+  }
+  return levers;
+}
+
 RenderSettings render_from_json(const Json& json) {
   RenderSettings render;
   render.width = integer_of<int>(json.at("width"));
@@ -45,6 +64,7 @@ RenderSettings render_from_json(const Json& json) {
   json.at("clamp_indirect").get_to(render.clamp_indirect);
   json.at("depth").get_to(render.depth);
   json.at("normal").get_to(render.normal);
+  if (json.contains("levers")) render.levers = levers_from_json(json.at("levers"));
   return render;
 }
 
@@ -147,10 +167,10 @@ FrameSpec read(const Json& json) {
 Result<FrameSpec> frame_spec_from_json(const Json& json, const std::string& what) {
   const Result<int> version = json_field<int>(json, "version", what);
   if (!version) return forward_error(version);
-  if (*version != kFrameSpecVersion) {
+  if (*version < kOldestFrameSpecVersion || *version > kFrameSpecVersion) {
     return fail(ErrorKind::kCorrupt,
-                "{} is a frame spec of version {}; this program reads version {}", what, *version,
-                kFrameSpecVersion);
+                "{} is a frame spec of version {}; this program reads versions {} to {}", what,
+                *version, kOldestFrameSpecVersion, kFrameSpecVersion);
   }
   try {
     return read(json);

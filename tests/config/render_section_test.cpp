@@ -52,6 +52,34 @@ TEST(RenderSection, ADenoiserIsOneOfThree) {
                         "(did you mean 'oidn_fast'?)"));
 }
 
+TEST(RenderSection, LeversAreOffUnlessSaidOtherwise) {
+  EXPECT_EQ(read_rendering("samples: 9")->render.levers, RenderLevers());
+  const auto config = read_rendering(
+      "max_bounces: 4, bounces: {diffuse: 0, transparent: 4}, light_threshold: 0.01, "
+      "clamp_direct: 8, filter_glossy: 0.5, texture_limit_px: 512");
+  ASSERT_TRUE(config) << config.error().message;
+  const RenderLevers expected{{0, std::nullopt, std::nullopt, 4}, 0.01, 8.0, 0.5, 512, false};
+  EXPECT_EQ(config->render.levers, expected);
+}
+
+TEST(RenderSection, LeversOutOfTheirRangeAreRefused) {
+  EXPECT_THAT(refusal_of_rendering("max_bounces: 4, bounces: {glossy: 5}"),
+              HasSubstr("render.bounces.glossy"));
+  EXPECT_THAT(refusal_of_rendering("bounces: {volume: 1}"), HasSubstr("render.bounces"));
+  EXPECT_THAT(refusal_of_rendering("light_threshold: -1"), HasSubstr("render.light_threshold"));
+  EXPECT_THAT(refusal_of_rendering("clamp_direct: -1"), HasSubstr("render.clamp_direct"));
+  EXPECT_THAT(refusal_of_rendering("filter_glossy: -1"), HasSubstr("render.filter_glossy"));
+  EXPECT_THAT(refusal_of_rendering("texture_limit_px: 100"),
+              HasSubstr("expected 0 (no limit) or a power of two from 128 to 8192, found 100"));
+  EXPECT_THAT(refusal_of_rendering("texture_limit_px: 64"), HasSubstr("found 64"));
+}
+
+TEST(RenderSection, PathGuidingPromisesNothing) {
+  EXPECT_THAT(refusal_of_rendering("path_guiding: true"), HasSubstr("determinism: none"));
+  EXPECT_TRUE(read_rendering("path_guiding: true}\ndeterminism: none\nimage: {gamma: 1")
+                  ->render.levers.path_guiding);
+}
+
 TEST(RenderSection, TheDeviceIsTheCpuUnlessSaidOtherwise) {
   EXPECT_EQ(read_rendering("samples: 9")->render.device, RenderDevice::kCpu);
   EXPECT_EQ(read_rendering("device: oneapi")->render.device, RenderDevice::kOneapi);

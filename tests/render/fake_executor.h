@@ -45,7 +45,6 @@ class FakeExecutor : public Executor {
 
   // How workers are, to be set before they start.
   Milliseconds start_time{100};
-  Milliseconds start_time_more{0};  ///< of each place of the pool than of the one before
   Milliseconds render_time{100};
   std::int64_t memory_bytes = 50'000'000;
   int protocol = kWorkerProtocol;
@@ -112,8 +111,8 @@ class FakeExecutor::FakeWorker : public Worker {
   using Time = Clock::time_point;
   static constexpr Time kNever = Time::max();
 
-  FakeWorker(const FakeExecutor& executor, int number, int start) : executor_(executor) {
-    const Time ready = executor.now() + executor.start_time + number * executor.start_time_more;
+  FakeWorker(const FakeExecutor& executor, int start) : executor_(executor) {
+    const Time ready = executor.now() + executor.start_time;
     if (executor.hangs_at_start) return;
     if (start <= executor.failing_starts) {
       print("fake: cannot open the display");
@@ -228,6 +227,7 @@ class FakeExecutor::FakeWorker : public Worker {
                {"attempt", job.attempt},
                {"build_s", 0.001},
                {"render_s", 0.002},
+               {"cpu_s", 0.003},
                {"error", "fake: will not render"}});
   }
   void print(const std::string& line) { log_ += (log_.empty() ? "" : "\n") + line; }
@@ -248,9 +248,9 @@ class FakeExecutor::FakeWorker : public Worker {
   bool stopped_ = false;
 };
 
-inline Result<std::shared_ptr<Worker>> FakeExecutor::start(int number) {
+inline Result<std::shared_ptr<Worker>> FakeExecutor::start(int) {
   if (no_start) return tl::unexpected(*no_start);
-  auto worker = std::make_shared<FakeWorker>(*this, number, ++starts_);
+  auto worker = std::make_shared<FakeWorker>(*this, ++starts_);
   started_.push_back(worker);
   return worker;
 }

@@ -55,13 +55,14 @@ TEST(Message, ReadsReady) {
 }
 
 TEST(Message, ReadsDone) {
-  const auto message =
-      parse_worker_message(R"({"type":"done","frame":42,"attempt":2,"build_s":0.5,"render_s":1})");
+  const auto message = parse_worker_message(
+      R"({"type":"done","frame":42,"attempt":2,"build_s":0.5,"render_s":1,"cpu_s":1.75})");
   ASSERT_TRUE(message);
   const auto& done = std::get<DoneMessage>(*message);
   EXPECT_EQ(done.job, (FrameJob{42, 2}));
   EXPECT_EQ(done.build_s, 0.5);
   EXPECT_EQ(done.render_s, 1.0);
+  EXPECT_EQ(done.cpu_s, 1.75);
 }
 
 TEST(Message, ReadsSignsOfLife) {
@@ -82,9 +83,9 @@ TEST(Message, AnythingElseIsAnErrorThatQuotesIt) {
        {"", "Fra:1 Mem:22M", "{", "[]", "1", "null", "{}", R"({"type":"render"})",
         R"({"type":"done","frame":42})", R"({"type":"done","frame":"x","attempt":1})",
         R"({"type":"ready","protocol":"1"})", R"({"type":"failed","frame":1,"attempt":1})",
-        R"({"type":"done","frame":1,"attempt":4294967297,"build_s":0,"render_s":0})",
-        R"({"type":"done","frame":1e300,"attempt":1,"build_s":0,"render_s":0})",
-        R"({"type":"done","frame":1,"attempt":true,"build_s":0,"render_s":0})",
+        R"({"type":"done","frame":1,"attempt":4294967297,"build_s":0,"render_s":0,"cpu_s":0})",
+        R"({"type":"done","frame":1e300,"attempt":1,"build_s":0,"render_s":0,"cpu_s":0})",
+        R"({"type":"done","frame":1,"attempt":true,"build_s":0,"render_s":0,"cpu_s":0})",
         "\xff\xfe\x00garbage"}) {
     const auto message = parse_worker_message(line);
     ASSERT_FALSE(message) << line;

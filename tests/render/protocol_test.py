@@ -57,15 +57,15 @@ class ChannelTest(unittest.TestCase):
     def test_sends_one_line_for_a_message(self):
         self.channel.send(Ready("3.4.1", "hash", "/config.ocio", "avx2", "avx512", "0123", "glibc 2.36", "cpu", "CPU (a)",
                                 "OpenImageDenoise"))
-        self.channel.send(Done(42, 2, 0.5, 1.5))
+        self.channel.send(Done(42, 2, 0.5, 1.5, 2.5))
         self.channel.send(Failed(42, 2, "two\nlines, \udc80 and µ"))
         ready, done, failed = map(json.loads, os.read(self.far_read, 10000).splitlines())
-        self.assertEqual(ready, {"type": "ready", "protocol": 4, "blender": "3.4.1", "build": "hash",
+        self.assertEqual(ready, {"type": "ready", "protocol": 5, "blender": "3.4.1", "build": "hash",
                                  "ocio_config": "/config.ocio", "kernel": "avx2", "embree": "avx512",
                                  "reciprocals": "0123", "libc": "glibc 2.36", "device": "cpu",
                                  "devices": "CPU (a)", "denoisers": "OpenImageDenoise"})
         self.assertEqual(done, {"type": "done", "frame": 42, "attempt": 2, "build_s": 0.5,
-                                "render_s": 1.5})
+                                "render_s": 1.5, "cpu_s": 2.5})
         self.assertEqual(failed["error"], "two\nlines, ? and µ")
 
 

@@ -218,6 +218,13 @@ TEST(SceneExpander, ScatteredObjectsKeepApart) {
   }
 }
 
+TEST(SceneExpander, AFrameIsOfTheNewVersionOnlyIfItNeedsIt) {
+  FrameSpec spec = compile(kBase)->expand(4)->spec;
+  EXPECT_EQ(to_json(spec)["version"], kOldestFrameSpecVersion);
+  spec.render.levers.filter_glossy = 1.0;
+  EXPECT_EQ(to_json(spec)["version"], kFrameSpecVersion);
+}
+
 TEST(SceneExpander, FrameSpecsSurviveTheirJson) {
   auto expander = compile(kBase);
   const auto frame = expander->expand(4);
@@ -235,9 +242,11 @@ TEST(SceneExpander, FrameSpecsSurviveTheirJson) {
   all.world.importance_map_px = 77;
   all.render.adaptive = {0.05, 8};
   all.render.denoise = Denoise::kOidnFast;
+  all.render.levers = {{1, 2, 3, 0}, 0.01, 8.0, 0.5, 512, true};
   const auto all_read = frame_spec_from_json(to_json(all), "t");
   ASSERT_TRUE(all_read) << all_read.error().message;
   EXPECT_EQ(all_read->render.adaptive, all.render.adaptive);
+  EXPECT_EQ(all_read->render.levers, all.render.levers);
   EXPECT_EQ(all_read->render.denoise, all.render.denoise);
   EXPECT_EQ(all_read->world.importance_map_px, 77);
   EXPECT_EQ(frame_id(*all_read), frame_id(all));

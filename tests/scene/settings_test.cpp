@@ -20,7 +20,7 @@ frames_per_scene: 3
 categories: [gear, hex_nut]
 render: {width: 321, height: 123, samples: 7, max_bounces: 2, filter_width_px: 1.25,
          clamp_indirect: 4, passes: [depth, normal], persistent_data: true,
-         adaptive: {threshold: 0.1, min_samples: 5}, denoise: oidn_fast}
+         adaptive: {threshold: 0.1, min_samples: 5}, denoise: oidn_fast, light_threshold: 0.5}
 determinism: none
 image: {display: XYZ, view: Raw, look: High, exposure_stops: 1, gamma: 2, ocio_config: other.ocio,
         format: webp}
@@ -44,6 +44,7 @@ camera: {distance_m: 1}
   EXPECT_EQ(settings.render.denoise, Denoise::kOidnFast);
   EXPECT_EQ(settings.render.filter_width_px, 1.25);
   EXPECT_EQ(settings.render.clamp_indirect, 4.0);
+  EXPECT_EQ(settings.render.levers.light_threshold, 0.5);
   EXPECT_TRUE(settings.render.depth);
   EXPECT_TRUE(settings.render.normal);
   EXPECT_TRUE(settings.persistent_data);
