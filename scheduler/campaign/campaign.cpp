@@ -172,9 +172,11 @@ Result<CampaignSource> source_of(const Campaign& campaign, const fs::path& home,
 }
 
 Result<PreparedCampaign> prepare_again(const Campaign& campaign, const fs::path& home,
-                                       const std::vector<std::string>& allowed) {
+                                       const std::vector<std::string>& allowed,
+                                       const std::vector<Override>& more) {
   Result<CampaignSource> source = source_of(campaign, home, allowed);
   if (!source) return forward_error(source);
+  source->overrides.insert(source->overrides.end(), more.begin(), more.end());
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (prepared) return prepared;
   return tl::unexpected(

@@ -50,10 +50,11 @@ Result<Campaign> open_campaign(const std::filesystem::path& folder);
 Result<CampaignSource> source_of(const Campaign& campaign, const std::filesystem::path& home,
                                  const std::vector<std::string>& allowed = {});
 
-/// prepare() of that source. Its errors tell places by the name that the config was submitted
+/// prepare() of that source, with `more` set. Its errors tell places by the name that the config was submitted
 /// under; a line about the campaign's copy follows.
 Result<PreparedCampaign> prepare_again(const Campaign& campaign, const std::filesystem::path& home,
-                                       const std::vector<std::string>& allowed = {});
+                                       const std::vector<std::string>& allowed = {},
+                                       const std::vector<Override>& more = {});
 
 struct Reconciliation {
   std::vector<PendingFrame> to_render;  ///< in order

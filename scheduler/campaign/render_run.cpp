@@ -4,7 +4,8 @@
 
 #include "base/files.h"
 #include "campaign/disk_space.h"
-#include "render/sandbox.h"
+#include "campaign/worker_requests.h"
+#include "frames/rendered_frame.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -13,32 +14,9 @@ namespace {
 // Finishing a frame takes a small share of rendering it.
 constexpr int kFinishThreads = 2;
 
-/// What no worker needs, and none gets, so that one that runs wild takes neither memory nor disk
-/// from the others.
-ResourceLimits worker_limits(const RunOptions& options) {
-  constexpr std::uint64_t kMostFrames = 10'000;  // of a worker that is never worn out
-  constexpr std::uint64_t kLargestFile = 16ULL << 30;
-  constexpr std::uint64_t kOpenFiles = 4096;
-  const std::uint64_t frames = options.pool.frames_per_worker > 0
-                                   ? static_cast<std::uint64_t>(options.pool.frames_per_worker)
-                                   : kMostFrames;
-  const auto frame_s = static_cast<std::uint64_t>(options.pool.frame_timeout.count() / 1000 + 1);
-  return {.memory_bytes = static_cast<std::uint64_t>(system_memory_bytes()),
-          .cpu_s = (frames + 1) * frame_s * static_cast<std::uint64_t>(options.worker.threads),
-          .file_bytes = kLargestFile,
-          .open_files = kOpenFiles};
-}
-
-/// With what only the campaign's folder says.
-WorkerOptions worker_options(const RunOptions& options, const CampaignFiles& files) {
-  WorkerOptions worker = options.worker;
-  worker.log_path = [files](int number) { return files.worker_log(number); };
-  worker.limits = worker_limits(options);
-  if (options.sandbox) worker.wrapper = sandbox_arguments(files.work());
-  // A killed Blender leaves its temporary folder behind; here it goes with the rest of work/.
-  std::error_code ignored;
-  worker.environment.emplace("TMPDIR", fs::absolute(files.work(), ignored).string());
-  return worker;
+WorkerOptions options_for_workers(const RunOptions& options, const CampaignFiles& files) {
+  return worker_options(options, files.work(),
+                        [files](int number) { return files.worker_log(number); });
 }
 
 }  // namespace
@@ -53,11 +31,11 @@ RenderRun::RenderRun(Campaign& campaign, const PreparedCampaign& prepared, Prove
       cached_(setup.cache,
               setup.options.no_cache ? CachedFrames::Use::kAdd : CachedFrames::Use::kTakeAndAdd,
               prepared.settings, provenance.common(),
-              worker_options(setup.options, campaign.files)),
+              options_for_workers(setup.options, campaign.files)),
       finisher_(prepared.settings.categories, prepared.settings.twin_check,
                 1,  // the cores are the workers'
                 prepared.settings.image_encoding),
-      executor_(worker_options(setup.options, campaign.files)),
+      executor_(options_for_workers(setup.options, campaign.files)),
       stage_(campaign, observer, *this, kFinishThreads) {
   RenderClient& client = *this;
   for (std::unique_ptr<WorkerPool>& pool : pools_) {
@@ -209,40 +187,13 @@ Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
   if (*taken) return std::nullopt;
   const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
   if (Status made = make_folders(attempt); !made) return forward_error(made);
-  RenderRequest request;
-  request.spec = canonical_text(expanded->spec);
-  request.frame_id = expanded->id;
-  std::error_code ignored;
-  request.output = fs::absolute(rendered_passes(attempt), ignored);
-  auto meshes = write_mesh_buffers(expanded->meshes);
-  if (!meshes) return forward_error(meshes);
-  request.meshes = std::move(*meshes);
-  const auto add_image = [&](const std::string& sha256) {
-    request.textures[sha256] = fs::absolute(expanded->used.images.at(sha256)->path, ignored);
-  };
-  for (const MaterialSpec& material : expanded->spec.materials) {
-    for (const auto& texture : material.textures) add_image(texture.second);
-  }
-  if (!expanded->spec.world.hdri.empty()) add_image(expanded->spec.world.hdri);
+  Result<RenderRequest> request = make_render_request(
+      *expanded, rendered_passes(attempt),
+      [this](const auto& sha256) { return campaign_.files.mesh_buffer(sha256); });
+  if (!request) return forward_error(request);
   tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), std::move(expanded->meshes),
                  attempt, campaign_.files.rejected(job.frame)};
-  return request;
-}
-
-Result<std::map<std::string, fs::path>> RenderRun::write_mesh_buffers(const MeshBuffers& meshes) {
-  std::map<std::string, fs::path> paths;
-  std::error_code error;
-  for (const auto& [sha256, buffer] : meshes) {
-    const fs::path path = campaign_.files.mesh_buffer(sha256);
-    if (!fs::exists(path, error)) {
-      // Scratch: nobody reads it after a crash.
-      if (Status written = write_file_unsynced(path, *buffer); !written) {
-        return forward_error(written);
-      }
-    }
-    paths[sha256] = fs::absolute(path, error);
-  }
-  return paths;
+  return std::move(*request);
 }
 
 void RenderRun::begin(const FrameJob& job, int worker, Attempt attempt) {

@@ -69,9 +69,6 @@ class RenderRun : public CampaignRun, private RenderClient, private FinishClient
   Result<std::vector<PendingFrame>> give_back();
 
   Status check_room() const;
-  /// Writes those that no frame before had. Returns the files' paths by SHA-256.
-  Result<std::map<std::string, std::filesystem::path>> write_mesh_buffers(
-      const MeshBuffers& meshes);
   void begin(const FrameJob& job, int worker, Attempt attempt);
   /// What begin was told.
   Attempt ended(const FrameJob& job);

@@ -1,54 +1,21 @@
 #include "frames/frame_finisher.h"
 
-#include <algorithm>
-
 #include "annotate/amodal.h"
 #include "annotate/labels.h"
 #include "base/canonical_writer.h"
 #include "frames/campaign_files.h"
 #include "frames/frame_writer.h"
+#include "frames/rendered_frame.h"
 #include "image/exr_file.h"
 #include "image/exr_metadata.h"
-#include "image/pass_reader.h"
 #include "image/pixel_hash.h"
 #include "image/png_file.h"
 #include "image_files/image_writer.h"
-#include "plan/pass_plan.h"
 #include "twin/twin_comparison.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr const char* kRenderedPasses = "rendered.exr";
-constexpr const char* kSharpPasses = "rendered.exr.sharp";
-
-PassExpectation expectation(const FinishTask& task, const PassPlan& plan) {
-  const FrameSpec& spec = task.spec;
-  PassExpectation expected;
-  expected.frame_id = task.frame_id;
-  expected.width = spec.render.width;
-  expected.height = spec.render.height;
-  expected.depth = plan.depth;
-  expected.normal = plan.normal;
-  for (const InstanceSpec& instance : spec.instances) {
-    expected.max_instance_id = std::max(expected.max_instance_id, instance.id);
-  }
-  return expected;
-}
-
-/// The passes of a frame, each from the rendering that it comes from.
-Result<FramePasses> read_frame_passes(const FinishTask& task) {
-  const PassPlan plan = plan_passes(task.spec);
-  const PassExpectation expected = expectation(task, plan);
-  Result<FramePasses> passes = read_passes(rendered_passes(task.attempt_folder), expected);
-  if (!passes || !plan.sharp_rendering) return passes;
-  Result<FramePasses> sharp = read_passes(task.attempt_folder / kSharpPasses, expected);
-  if (!sharp) return sharp;
-  sharp->combined = std::move(passes->combined);
-  sharp->pixel_hashes["combined"] = passes->pixel_hashes["combined"];
-  return sharp;
-}
 
 Grazes grazes_of(const Twin& twin) {
   return [&twin](int row, int column, std::uint16_t id) { return twin.grazes(row, column, id); };
@@ -62,8 +29,9 @@ Status keep_rejected(const FinishTask& task, const Image<std::uint16_t>& rendere
   std::error_code error;
   fs::remove_all(folder, error);
   if (Status made = make_folders(folder); !made) return made;
-  for (const char* name : {kRenderedPasses, kSharpPasses}) {
-    fs::rename(task.attempt_folder / name, folder / name, error);  // the sharp one is seldom there
+  const fs::path written = rendered_passes(task.attempt_folder);
+  for (const fs::path& file : {written, sharp_passes(written)}) {
+    fs::rename(file, folder / file.filename(), error);  // the sharp one is seldom there
   }
   FrameWriter writer(folder);
   writer.write(frame_files::kSpec, readable_layout(canonical_text(task.spec)));
@@ -125,12 +93,9 @@ Result<FinishedFrame> close(const FinishTask& task, const TwinTally& tally, Fram
 
 }  // namespace
 
-fs::path rendered_passes(const fs::path& attempt_folder) {
-  return attempt_folder / kRenderedPasses;
-}
-
 Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorManagement& color) {
-  const Result<FramePasses> passes = read_frame_passes(task);
+  const fs::path rendered = rendered_passes(task.attempt_folder);
+  const Result<FramePasses> passes = read_rendered_frame(task.spec, task.frame_id, rendered);
   if (!passes) return forward_error(passes);
   const Image<std::uint16_t>& ids = passes->instance_ids;
   const Result<Twin> twin = tracer_.trace(task.spec, task.meshes, TwinTracer::Passes::kIdsOnly);
@@ -148,7 +113,7 @@ Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorM
   }
   writer.write(frame_files::image(encoding_.format), *picture);
   writer.make(frame_files::kPasses, [&](const fs::path& path) {
-    return copy_without_metadata(rendered_passes(task.attempt_folder), path);
+    return copy_without_metadata(rendered, path);
   });
   write_data_passes(passes->depth, passes->normal, writer);
   writer.manifest().image = encoding_;
@@ -157,8 +122,8 @@ Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorM
   Result<FinishedFrame> finished = close(task, *tally, writer);
   if (!finished) return finished;
   std::error_code ignored;
-  fs::remove(task.attempt_folder / kRenderedPasses, ignored);
-  fs::remove(task.attempt_folder / kSharpPasses, ignored);
+  fs::remove(rendered, ignored);
+  fs::remove(sharp_passes(rendered), ignored);
   return finished;
 }
 

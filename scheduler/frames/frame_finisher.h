@@ -27,9 +27,6 @@ struct FinishedFrame {
   TwinTally twin;
 };
 
-/// The worker writes here, inside the attempt folder.
-std::filesystem::path rendered_passes(const std::filesystem::path& attempt_folder);
-
 /// Writes the files of frames into their attempt folders; StoreWriter brings them to the disk and
 /// into place. A kRender error is the worker's fault, a kEnvironment error the disk's. Thread-safe.
 class FrameFinisher {

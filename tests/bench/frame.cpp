@@ -14,6 +14,7 @@
 #include "base/philox.h"
 #include "base/sha256.h"
 #include "frames/frame_finisher.h"
+#include "frames/rendered_frame.h"
 #include "image/pass_reader.h"
 #include "image/pixel_hash.h"
 #include "image/png_file.h"
