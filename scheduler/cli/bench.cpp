@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "campaign/run_setup.h"
+#include "cli/bench_error.h"
 #include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
@@ -52,6 +53,7 @@ int bench_determinism(const DeterminismArguments& arguments) {
 void add_bench_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::App* bench = app.add_subcommand("bench", "measurements to repeat on your own machine");
   bench->require_subcommand(1);
+  add_bench_error(*bench, on_selected);
   auto arguments = std::make_shared<DeterminismArguments>();
   CLI::App* verb = bench->add_subcommand(
       "determinism", "what changes Cycles' pixels: nine scenes in many conditions (minutes)");

@@ -21,6 +21,7 @@ enum ExitCode : int {
   kExitTolerance = 7,        ///< labels identical, colours within the tolerance
   kExitLabels = 8,           ///< labels differ
   kExitNotReproducible = 9,  ///< colours beyond the tolerance, or frames missing
+  kExitErrorBound = 10,      ///< frames are further from their references than was promised
   kExitInterrupted = 130     ///< stopped by a signal; 'resume' goes on
 };
 

@@ -15,6 +15,8 @@ using OnSelected = std::function<void(std::function<int()>)>;
 void add_submit_verb(CLI::App& app, const OnSelected& on_selected);
 void add_resume_verb(CLI::App& app, const OnSelected& on_selected);
 void add_status_verb(CLI::App& app, const OnSelected& on_selected);
+void add_render_verb(CLI::App& app, const OnSelected& on_selected);
+void add_verify_error_verb(CLI::App& app, const OnSelected& on_selected);
 void add_explain_verb(CLI::App& app, const OnSelected& on_selected);
 void add_export_verb(CLI::App& app, const OnSelected& on_selected);
 void add_check_verb(CLI::App& app, const OnSelected& on_selected);
