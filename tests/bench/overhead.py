@@ -54,7 +54,7 @@ render: {width: 640, height: 480, samples: 1}
 objects:
   nuts:
     asset: hex_nut
-    grid: {counts: [40, 25], spacing_m: [0.03, 0.03]}
+    grid: {counts: [40, 25, 1], spacing_m: [0.03, 0.03, 0.03]}
     rest_on_ground: true
     material: {choice: [zinc, black_oxide, brass]}
 ground: {width_m: 4, depth_m: 4, material: plastic}
@@ -246,11 +246,15 @@ def main():
     parser.add_argument("--program", type=pathlib.Path, default=HOME / "build" / "release" / "seedframe")
     parser.add_argument("--report", type=pathlib.Path, help="write the tables there too")
     options = parser.parse_args()
-    measured = [(case, measure(options, case)) for case in CASES if not options.case or case.name in options.case]
-    text = report(options, measured)
+    measured = []
+    for case in CASES:
+        if options.case and case.name not in options.case:
+            continue
+        measured.append((case, measure(options, case)))
+        text = report(options, measured)
+        if options.report:  # after each case: the later ones take long
+            options.report.write_text(text, encoding="utf-8")
     print(text)
-    if options.report:
-        options.report.write_text(text, encoding="utf-8")
     return any(case.goal and statistics.median(r.submit_s / r.one_s for r in rounds) > case.goal
                for case, rounds in measured)
 
