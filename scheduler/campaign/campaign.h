@@ -50,8 +50,8 @@ Result<Campaign> open_campaign(const std::filesystem::path& folder);
 Result<CampaignSource> source_of(const Campaign& campaign, const std::filesystem::path& home,
                                  const std::vector<std::string>& allowed = {});
 
-/// prepare() of that source, with `more` set. Its errors tell places by the name that the config was submitted
-/// under; a line about the campaign's copy follows.
+/// prepare() of that source, with `more` set. Its errors tell places by the name that the config
+/// was submitted under; a line about the campaign's copy follows.
 Result<PreparedCampaign> prepare_again(const Campaign& campaign, const std::filesystem::path& home,
                                        const std::vector<std::string>& allowed = {},
                                        const std::vector<Override>& more = {});

@@ -112,9 +112,8 @@ Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorM
     return forward_error(labelled);
   }
   writer.write(frame_files::image(encoding_.format), *picture);
-  writer.make(frame_files::kPasses, [&](const fs::path& path) {
-    return copy_without_metadata(rendered, path);
-  });
+  writer.make(frame_files::kPasses,
+              [&](const fs::path& path) { return copy_without_metadata(rendered, path); });
   write_data_passes(passes->depth, passes->normal, writer);
   writer.manifest().image = encoding_;
   writer.manifest().pixel_hashes = passes->pixel_hashes;
