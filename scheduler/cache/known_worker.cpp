@@ -82,16 +82,22 @@ Result<BlenderInfo> known_blender(FrameCache* cache, const std::string& program)
   if (!found) return forward_error(found);
   if (!found->module.empty()) return probe_blender(program);  // is not started for that
   const fs::path& path = found->path;
-  const std::string subject = fmt::format("version of {}, {}", path.string(), stamp_of(path));
-  if (const auto said = cache->recall(subject)) {
-    Result<BlenderInfo> info = parse_blender_version(*said);
+  const std::string file = fmt::format("{}, {}", path.string(), stamp_of(path));
+  const auto version = cache->recall("version of " + file);
+  auto sha256 = cache->recall("sha256 of " + file);
+  if (version && sha256) {
+    Result<BlenderInfo> info = parse_blender_version(*version);
     if (info) {
       info->program = std::move(*found);
+      info->sha256 = std::move(*sha256);
       return info;
     }
   }
   Result<BlenderInfo> info = probe_blender(path.string());
-  if (info) cache->remember(subject, "Blender " + info->version);
+  if (info) {
+    cache->remember("version of " + file, "Blender " + info->version);
+    cache->remember("sha256 of " + file, info->sha256);
+  }
   return info;
 }
 

@@ -15,7 +15,7 @@
 namespace seedframe {
 
 /// probe_blender, but a program that has told its version already, and whose file has not been
-/// touched since, is not started. `cache` may be null.
+/// touched since, is neither started nor read. `cache` may be null.
 Result<BlenderInfo> known_blender(FrameCache* cache, const std::string& program);
 
 /// All that decides over what a worker says of itself: Blender, our scripts and libraries

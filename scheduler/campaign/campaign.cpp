@@ -19,6 +19,39 @@ constexpr const char* kConfigFileKey = "config_file";  // absolute: the job stor
 constexpr const char* kOverridesKey = "overrides";
 constexpr const char* kAllowedKey = "allowed_folders";  // a JSON list
 
+/// What the campaign was made from.
+Status describe_campaign(const PreparedCampaign& prepared, JobStore& store) {
+  Json overrides = Json::array();
+  for (const Override& change : prepared.source.overrides) {
+    overrides.push_back({{"path", change.path}, {"value", change.value}});
+  }
+  std::error_code error;
+  const std::string file = fs::absolute(prepared.source.file, error).string();
+  if (Status set = store.set_meta(kConfigFileKey, file); !set) return set;
+  if (Status set = store.set_meta(kOverridesKey, canonical_json(overrides)); !set) return set;
+  Json allowed = Json::array();
+  for (const fs::path& path : prepared.source.allowed.folders()) allowed.push_back(path.string());
+  if (Status set = store.set_meta(kAllowedKey, canonical_json(allowed)); !set) return set;
+  const std::string inputs = canonical_json(Json(input_stamps(prepared)));
+  if (Status set = store.set_meta(kInputsKey, inputs); !set) return set;
+  const std::string encoding = canonical_json(to_json(prepared.settings.image_encoding));
+  return store.set_meta(kEncodingKey, encoding);
+}
+
+Status add_every_frame(const PreparedCampaign& prepared, JobStore& store) {
+  std::int64_t next = 0;
+  return store.add_frames([&]() -> Result<std::optional<FrameRow>> {
+    if (next == prepared.expander.frame_count()) return std::nullopt;
+    Result<ExpandedFrame> expanded = prepared.expander.expand(next);
+    if (!expanded) return forward_error(expanded);
+    FrameRow row;
+    row.frame = next++;
+    row.scene = expanded->scene;
+    row.frame_id = std::move(expanded->id);
+    return row;
+  });
+}
+
 Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   for (const fs::path& folder : {files.frames(), files.logs()}) {
     if (Status made = make_folders(folder); !made) return made;
@@ -28,31 +61,10 @@ Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   }
   Result<JobStore> store = JobStore::create(files.unfinished_store());
   if (!store) return forward_error(store);
-  Json overrides = Json::array();
-  for (const Override& change : prepared.source.overrides) {
-    overrides.push_back({{"path", change.path}, {"value", change.value}});
-  }
-  std::error_code error;
-  const std::string file = fs::absolute(prepared.source.file, error).string();
-  if (Status set = store->set_meta(kConfigFileKey, file); !set) return set;
-  if (Status set = store->set_meta(kOverridesKey, canonical_json(overrides)); !set) return set;
-  Json allowed = Json::array();
-  for (const fs::path& path : prepared.source.allowed.folders()) allowed.push_back(path.string());
-  if (Status set = store->set_meta(kAllowedKey, canonical_json(allowed)); !set) return set;
-  const std::string inputs = canonical_json(Json(input_stamps(prepared)));
-  if (Status set = store->set_meta(kInputsKey, inputs); !set) return set;
-  const std::string encoding = canonical_json(to_json(prepared.settings.image_encoding));
-  if (Status set = store->set_meta(kEncodingKey, encoding); !set) return set;
-  std::int64_t next = 0;
-  return store->add_frames([&]() -> Result<std::optional<FrameRow>> {
-    if (next == prepared.expander.frame_count()) return std::nullopt;
-    Result<ExpandedFrame> expanded = prepared.expander.expand(next);
-    if (!expanded) return forward_error(expanded);
-    FrameRow row;
-    row.frame = next++;
-    row.scene = expanded->scene;
-    row.frame_id = std::move(expanded->id);
-    return row;
+  // Together, since each transaction waits for the disk several times.
+  return store->write_together(JobStore::Sync::kNow, [&]() -> Status {
+    if (Status described = describe_campaign(prepared, *store); !described) return described;
+    return add_every_frame(prepared, *store);
   });
 }
 

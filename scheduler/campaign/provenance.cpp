@@ -67,11 +67,9 @@ Result<Json> common_facts(const std::string& ocio_hash, const RunSetup& setup) {
                 {"libraries", library_versions()}, {"twin_isa", ray_tracing_isa()},
                 {"ocio_config_sha256", ocio_hash}, {"threads", worker.threads}};
   if (!setup.color) return facts;
-  const Result<std::string> program = sha256_of(worker.blender);
-  if (!program) return forward_error(program);
   const Result<std::string> scripts = hash_of_scripts(worker.scripts);
   if (!scripts) return forward_error(scripts);
-  facts["blender_sha256"] = *program;
+  facts["blender_sha256"] = setup.blender.sha256;
   facts["scripts_sha256"] = *scripts;
   facts["persistent_data"] = worker.conditions.persistent_data;
   return facts;

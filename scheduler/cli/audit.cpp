@@ -81,6 +81,7 @@ int audit(AuditArguments& arguments) {
   if (renders) {
     setup = set_up_run(arguments.run, prepared->settings, prepared->expander.frame_count());
     if (!setup) return report(setup.error());
+    print_notes(*setup);
   }
   if (Status taken = take_audit_folder(options.folder); !taken) return report(taken.error());
   Auditor auditor(*campaign, *prepared, *setup, options);

@@ -87,6 +87,7 @@ int resume(ResumeArguments arguments) {
   Result<RunSetup> setup = set_up_run(arguments.run, prepared->settings,
                                       static_cast<std::int64_t>(state->to_render.size()));
   if (!setup) return report(setup.error());
+  print_notes(*setup);
   if (!arguments.frames.empty()) setup->options.no_cache = true;  // "render", it says
   return run_campaign(*campaign, *prepared, renewed->used, *setup, std::move(state->to_render));
 }

@@ -73,12 +73,13 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
 Result<RunSetup> set_up_run(const RunOptions& options, const CampaignSettings& settings,
                             std::int64_t frames) {
   const RunPlaces places{seedframe_home() / "blender_scripts", worker_preload(), cache_folder()};
-  Result<RunSetup> setup = set_up_run(options, places, settings, frames);
-  if (!setup) return setup;
-  for (const std::string& note : setup->notes) {
+  return set_up_run(options, places, settings, frames);
+}
+
+void print_notes(const RunSetup& setup) {
+  for (const std::string& note : setup.notes) {
     std::fprintf(stderr, "seedframe: note: %s\n", note.c_str());
   }
-  return setup;
 }
 
 }  // namespace seedframe

@@ -1,5 +1,6 @@
 // seedframe submit: a config to a rendered campaign.
 
+#include <future>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -66,10 +67,14 @@ int submit(const SubmitArguments& arguments) {
   }
   // Every frame is expanded once before anything is written: a mistake in the last one leaves no
   // folder behind that somebody would have to take away again.
+  // Meanwhile Blender, which may have to be started for that, is asked what it is.
+  auto setting_up = std::async(
+      std::launch::async, [&] { return set_up_run(arguments.run, prepared->settings, wanted); });
   const Result<ExpansionSummary> summary = expand_all(prepared->expander, {.id = false});
+  Result<RunSetup> setup = setting_up.get();
   if (!summary) return report(summary.error());
-  Result<RunSetup> setup = set_up_run(arguments.run, prepared->settings, wanted);
   if (!setup) return report(setup.error());
+  print_notes(*setup);
   if (arguments.dry_run) {
     print_plan(*prepared, *summary, *setup, wanted, folder);
     return kExitOk;

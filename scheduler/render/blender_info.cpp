@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <regex>
 
 #include <fmt/format.h>
@@ -56,13 +57,18 @@ Result<BlenderInfo> parse_blender_version(const std::string& output) {
 Result<BlenderInfo> probe_blender(const std::string& name) {
   Result<BlenderProgram> program = find_blender(name);
   if (!program) return forward_error(program);
+  // Reading it takes a while, and asking it is waiting for another process.
+  auto hashing = std::async(std::launch::async, [&] { return sha256_of(*program); });
   const Result<std::string> text = version_text(*program);
+  Result<std::string> sha256 = hashing.get();
   if (!text) return forward_error(text);
   Result<BlenderInfo> info = parse_blender_version(*text);
   if (!info) {
     return fail(ErrorKind::kEnvironment, "{}: {}", program->name(), info.error().message);
   }
+  if (!sha256) return forward_error(sha256);
   info->program = std::move(*program);
+  info->sha256 = std::move(*sha256);
   return info;
 }
 

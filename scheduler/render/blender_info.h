@@ -10,6 +10,7 @@ namespace seedframe {
 
 struct BlenderInfo {
   BlenderProgram program;
+  std::string sha256;   ///< over the program itself, see sha256_of
   std::string version;  ///< "3.4.1"
   int major = 0;
   int minor = 0;
@@ -19,9 +20,9 @@ struct BlenderInfo {
   bool tested = false;
 };
 
-/// Finds Blender (see find_blender) and asks it for its version. A module is not started for that.
-/// kEnvironment errors: not found, not executable, not Blender, older than 3.3; each says what to
-/// do.
+/// Finds Blender (see find_blender), asks it for its version and hashes it. A module is not started
+/// for that. kEnvironment errors: not found, not executable, not Blender, older than 3.3; each says
+/// what to do.
 Result<BlenderInfo> probe_blender(const std::string& name = "blender");
 
 /// Reads the first line of `blender --version`: "Blender 3.4.1", "Blender 4.2.0 LTS".

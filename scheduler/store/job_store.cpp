@@ -11,6 +11,7 @@ using sqlite::Statement;
 constexpr int kVersion = 4;
 
 constexpr const char* kSchema = R"sql(
+BEGIN;
 CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL, sha256 TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE frames (
   frame INTEGER PRIMARY KEY,
@@ -50,6 +51,7 @@ CREATE TABLE attempts (
   PRIMARY KEY (frame, attempt)) WITHOUT ROWID;
 CREATE INDEX attempts_by_outcome ON attempts (outcome, started);
 PRAGMA user_version = 4;
+COMMIT;
 )sql";
 
 }  // namespace

@@ -52,6 +52,7 @@ class RunSetupTest : public ::testing::Test {
 TEST_F(RunSetupTest, ARenderingHasBlenderItsColoursAndItsScripts) {
   const RunSetup setup = set_up();
   EXPECT_EQ(setup.blender.version, "3.4.1");
+  EXPECT_EQ(setup.blender.sha256, *sha256_of_file(scratch_ / "blender"));
   EXPECT_EQ(setup.options.worker.blender.path, scratch_ / "blender");
   EXPECT_EQ(setup.options.worker.scripts, places_.scripts);
   EXPECT_EQ(setup.options.worker.preload, places_.preload);
@@ -134,6 +135,23 @@ TEST_F(RunSetupTest, PortableCampaignsPinTheKernels) {
   EXPECT_FALSE(set_up().options.worker.conditions.kernels);
   settings_.determinism = {Determinism::Mode::kPortable, Isa::kAvx};
   EXPECT_EQ(set_up().options.worker.conditions.kernels, kernels_of(Isa::kAvx));
+}
+
+TEST_F(RunSetupTest, WhatBlenderIsIsRememberedUntilItsFileIsTouched) {
+  const std::string script = "#!/bin/sh\necho >>" + (scratch_ / "starts").string() + "\n";
+  const fs::path path = scratch_ / "blender";
+  const auto starts = [this] { return fs::file_size(scratch_ / "starts"); };
+  ASSERT_TRUE(write_file(path, script + "echo Blender 3.4.1\n"));
+  const std::string sha256 = *sha256_of_file(path);
+  EXPECT_EQ(set_up().blender.sha256, sha256);
+  EXPECT_EQ(starts(), 1u);
+  EXPECT_EQ(set_up().blender.sha256, sha256);
+  EXPECT_EQ(starts(), 1u);
+  ASSERT_TRUE(write_file(path, script + "echo Blender 3.4.2\n"));
+  const RunSetup changed = set_up();
+  EXPECT_EQ(changed.blender.version, "3.4.2");
+  EXPECT_EQ(changed.blender.sha256, *sha256_of_file(path));
+  EXPECT_EQ(starts(), 2u);
 }
 
 TEST_F(RunSetupTest, FramesThatPromiseNothingAreNotCached) {

@@ -10,6 +10,7 @@ namespace seedframe {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class BadInputTest : public ProgramTest {
  protected:
@@ -60,6 +61,19 @@ TEST_F(BadInputTest, DistributionsAndFormulas) {
 TEST_F(BadInputTest, AFrameFarIntoTheCampaignIsFoundBeforeTheFirstIsRendered) {
   expect_refused(with_object("{asset: gear, scale: 40 - scene_index}") + "scenes: 50\n",
                  "scale must be above 0, found 0 (scene 40");
+}
+
+TEST_F(BadInputTest, AMistakeOfTheConfigComesBeforeWhatIsToBeSaidOfBlender) {
+  write_config("scene.yaml",
+               with_object("{asset: gear, scale: 40 - scene_index}") + "scenes: 50\n");
+  write_script(folder_ / "new_blender", "#!/bin/sh\necho Blender 4.3.1\n");
+  for (const std::string blender : {"/no/blender", "./new_blender"}) {
+    const Outcome outcome = run({"submit", "scene.yaml", "-o", "c", "--blender", blender});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.errors, HasSubstr("scale must be above 0, found 0 (scene 40"));
+    EXPECT_THAT(outcome.errors, Not(HasSubstr("lender")));
+    EXPECT_FALSE(exists("c"));
+  }
 }
 
 TEST_F(BadInputTest, EmptyAndDamagedMeshes) {
