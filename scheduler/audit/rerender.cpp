@@ -127,6 +127,8 @@ Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions o
   setup.options = std::move(options);
   setup.options.pool.workers = arrangement.workers;
   setup.options.pause_limit_s = 0.0;
+  // Or a worker that was slow to start would have no history, and frames not their arrangement.
+  setup.options.pool.begin_together = true;
   setup.cache.clear();  // what is audited is never taken from anywhere
   std::error_code ignored;
   fs::remove_all(folder, ignored);

@@ -59,6 +59,8 @@ class WorkerPool::Loop {
   // Work for workers.
   void start_workers(Schedule& schedule);
   void start(Slot& slot);
+  /// See PoolOptions::begin_together.
+  bool waits_for_others();
   void hand_out(Schedule& schedule);
   std::optional<PreparedJob> prepare(Schedule& schedule, bool fresh_worker);
   void give(Slot& slot, const PreparedJob& prepared, const Schedule& schedule);
@@ -98,6 +100,7 @@ class WorkerPool::Loop {
   std::optional<PreparedJob> prepared_;
   std::map<FrameJob, int> rendered_by_;  ///< unjudged jobs and the start of their worker
   std::optional<Error> stopped_by_;
+  bool has_begun_ = false;  ///< frames are handed out
   int starts_ = 0;
   int starts_failed_in_a_row_ = 0;
 

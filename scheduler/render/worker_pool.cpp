@@ -88,7 +88,16 @@ void WorkerPool::Loop::start(Slot& slot) {
   slot.deadline = slot.since + options_.start_timeout;
 }
 
+bool WorkerPool::Loop::waits_for_others() {
+  has_begun_ = has_begun_ || !options_.begin_together ||
+               std::none_of(slots_.begin(), slots_.end(), [](const Slot& slot) {
+                 return slot.state == Slot::State::kStarting || slot.state == Slot::State::kEnding;
+               });
+  return !has_begun_;
+}
+
 void WorkerPool::Loop::hand_out(Schedule& schedule) {
+  if (waits_for_others()) return;
   bool somebody_busy = false;
   for (Slot& slot : slots_) {
     if (slot.state == Slot::State::kIdle && !slot.suspect && !stopped_by_) {

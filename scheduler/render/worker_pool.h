@@ -29,6 +29,9 @@ struct PoolOptions {
   int frames_per_worker = 2000;
   /// A worker that has grown above this (resident, bytes) is replaced after its frame; 0: never.
   std::int64_t worker_memory_bytes = 0;
+  /// No frame is handed out before all workers that it begins with are ready, so that each gets one
+  /// of the first frames, however long it took to start.
+  bool begin_together = false;
   /// No new frame starts while so many wait for their verdict, which bounds the disk they take.
   int max_unjudged = 64;
 };

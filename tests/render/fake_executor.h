@@ -45,6 +45,7 @@ class FakeExecutor : public Executor {
 
   // How workers are, to be set before they start.
   Milliseconds start_time{100};
+  Milliseconds start_time_more{0};  ///< of each place of the pool than of the one before
   Milliseconds render_time{100};
   std::int64_t memory_bytes = 50'000'000;
   int protocol = kWorkerProtocol;
@@ -111,8 +112,8 @@ class FakeExecutor::FakeWorker : public Worker {
   using Time = Clock::time_point;
   static constexpr Time kNever = Time::max();
 
-  FakeWorker(const FakeExecutor& executor, int start) : executor_(executor) {
-    const Time ready = executor.now() + executor.start_time;
+  FakeWorker(const FakeExecutor& executor, int number, int start) : executor_(executor) {
+    const Time ready = executor.now() + executor.start_time + number * executor.start_time_more;
     if (executor.hangs_at_start) return;
     if (start <= executor.failing_starts) {
       print("fake: cannot open the display");
@@ -248,9 +249,9 @@ class FakeExecutor::FakeWorker : public Worker {
   bool stopped_ = false;
 };
 
-inline Result<std::shared_ptr<Worker>> FakeExecutor::start(int) {
+inline Result<std::shared_ptr<Worker>> FakeExecutor::start(int number) {
   if (no_start) return tl::unexpected(*no_start);
-  auto worker = std::make_shared<FakeWorker>(*this, ++starts_);
+  auto worker = std::make_shared<FakeWorker>(*this, number, ++starts_);
   started_.push_back(worker);
   return worker;
 }

@@ -1,6 +1,9 @@
 // The pool at work: order of calls, verdicts, draining, and what it leaves behind.
 #include "render/worker_pool.h"
 
+#include <set>
+#include <vector>
+
 #include <gmock/gmock.h>
 
 #include "tests/render/pool_fixture.h"
@@ -58,6 +61,52 @@ TEST_F(PoolTest, StartsNoMoreWorkersThanFrames) {
   options.workers = 8;
   ASSERT_TRUE(run(2));
   EXPECT_EQ(executor.starts(), 2);
+}
+
+TEST_F(PoolTest, FramesAreHandedOutAsSoonAsAnyWorkerIsReady) {
+  options.workers = 3;
+  executor.start_time_more = 10s;
+  std::set<int> workers;
+  client.on_started = [&](const FrameJob&) { workers.insert(client.last_worker); };
+  ASSERT_TRUE(run(4));
+  EXPECT_THAT(workers, ElementsAre(0));
+}
+
+TEST_F(PoolTest, WorkersThatBeginTogetherGetOneOfTheFirstFramesEach) {
+  options.workers = 3;
+  options.begin_together = true;
+  executor.start_time_more = 10s;
+  executor.failing_starts = 1;
+  std::vector<int> workers;
+  client.on_started = [&](const FrameJob&) { workers.push_back(client.last_worker); };
+  ASSERT_TRUE(run(4));
+  ASSERT_EQ(workers.size(), 4u);
+  workers.pop_back();
+  EXPECT_THAT(workers, ElementsAre(0, 1, 2));
+}
+
+TEST_F(PoolTest, OnceBegunNobodyWaitsForAWorkerThatIsReplaced) {
+  options.workers = 2;
+  options.begin_together = true;
+  executor.start_time = 10s;
+  executor.act(Act::kCrash, {0});
+  FakeExecutor::Milliseconds last_started{0};
+  client.on_started = [&](const FrameJob& job) {
+    if (job.frame == 39) last_started = executor.elapsed();
+  };
+  ASSERT_TRUE(run(40));
+  EXPECT_GT(last_started, 10s);
+  EXPECT_LT(last_started, 20s) << "the other one is ready again after 20 s";
+}
+
+TEST_F(PoolTest, WorkersThatWouldBeginTogetherCanBeDrainedBefore) {
+  options.workers = 2;
+  options.begin_together = true;
+  executor.start_time_more = 10s;
+  executor.after(1s, [this] { pool->drain(); });
+  const auto summary = run(4);
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->left, 4);
 }
 
 TEST_F(PoolTest, NothingToDoStartsNothing) {
