@@ -1,18 +1,18 @@
 #!/bin/sh
 # The benchmarks, into results/: how fast configs are expanded, what the twin costs and where it agrees with Cycles, what submit costs above
 # a bare loop in Blender, a worker's memory over 1,000 frames, how fast annotations are written, what a large store costs, how fast an audit reads,
-# and how long the program takes to start. Takes about 40 minutes on two idle cores; on a busy machine longer, and then it
-# measures the company.
+# how long the program takes to start, and how many frames an hour all of it makes beside BlenderProc. Takes about an hour and
+# a quarter on two idle cores; on a busy machine longer, and then it measures the company.
 #
 #   scripts/bench.sh               all
-#   scripts/bench.sh NAME…         of expansion, twin, frame, stability, overhead, memory, export, store, audit, startup, determinism
+#   scripts/bench.sh NAME…         of expansion, twin, frame, stability, overhead, memory, export, store, audit, startup, determinism, throughput
 set -eu
 cd "$(dirname "$0")/.."
 export SEEDFRAME_CACHE=off  # what is rendered here is rendered
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
 ninja --quiet -C build/release seedframe bench_expansion bench_twin bench_frame bench_export bench_store stability
 mkdir -p results/bench results/stability results/reliability results/determinism
-[ $# -gt 0 ] || set -- expansion twin frame stability overhead memory export store audit startup determinism
+[ $# -gt 0 ] || set -- expansion twin frame stability overhead memory export store audit startup determinism throughput
 failed=0
 for name in "$@"; do
   case $name in
@@ -26,6 +26,7 @@ for name in "$@"; do
     store) tests/bench/store.py --report results/reliability/scale.md ;;
     audit) tests/bench/audit.py --report results/bench/audit.md ;;
     startup) tests/bench/startup.py --report results/bench/startup.md ;;
+    throughput) tests/bench/throughput.py --report results/bench/throughput.md ;;
     determinism)
       build/release/seedframe bench determinism -o results/determinism &&
         tests/bench/audit_demo.sh results/determinism/audit_demo.md

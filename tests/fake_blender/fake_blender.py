@@ -13,6 +13,7 @@ SEEDFRAME_FAKE in the environment is a JSON object; all keys are optional:
     "protocol": 2                       the version in "ready"
     "chatty_log_bytes": 1000            printed for each frame
     "delay_s": 0.1                      for each frame
+    "frame_s": 0.017                    that a frame takes in all, if drawing it takes no longer
     "starts_log": "path"                gets one line, the process id, for each start
     "kernel": "avx"                     that it says it has, and "kernel_from": "path" the file that says it
     "depends_on": ["threads", "locale"] what a pixel of every frame depends on (see DEPENDENCIES)
@@ -76,6 +77,8 @@ def main():
         return 1
     if wishes.get("hang_before_ready"):
         hang()
+    if "frame_s" in wishes:
+        import numpy  # noqa: F401 - so that the first frame is as fast as the others
     reader = os.fdopen(option("--read-fd"), "rb", closefd=False)
     send({"type": "ready", "protocol": wishes.get("protocol", 5), "blender": "3.4.1", "build": "fake",
           "ocio_config": "", "kernel": wished_kernel(wishes), "embree": os.environ.get("SEEDFRAME_EMBREE_ISA", "avx2"), "reciprocals": "fake", "libc": "",
@@ -107,6 +110,7 @@ def kernel():
 
 def answer(request, wishes, rendered):
     """The `rendered` frames before are of no account, unless it is wished for."""
+    begin = time.monotonic()
     frame, attempt = request["frame"], request["attempt"]
     fault = next((f for f in FAULTS if meets(wishes, f, frame, attempt)), None)
     print("." * wishes.get("chatty_log_bytes", 0), flush=True)
@@ -135,8 +139,12 @@ def answer(request, wishes, rendered):
         data = exr_bytes(*draw(request["spec"], fault, dependencies), frame_id)
         pathlib.Path(request["output"]).write_bytes(
             data[:len(data) // 2] if fault == "half_exr" else data)
+    render_s = 0.002
+    if "frame_s" in wishes:
+        time.sleep(max(0.0, begin + wishes["frame_s"] - time.monotonic()))
+        render_s = time.monotonic() - begin
     return {"type": "done", "frame": frame + (fault == "wrong_frame"),
-            "attempt": attempt + (fault == "wrong_attempt"), "build_s": 0.001, "render_s": 0.002, "cpu_s": 0.003}
+            "attempt": attempt + (fault == "wrong_attempt"), "build_s": 0.001, "render_s": render_s, "cpu_s": 0.003}
 
 
 def draw(spec, fault=None, dependencies=()):
