@@ -5,6 +5,7 @@ import os
 import bpy
 
 import blender_versions
+import render_devices
 
 
 def sharp_output(output):
@@ -108,6 +109,8 @@ def _set_adaptive(cycles, adaptive):
 def _set_denoiser(cycles, denoise):
     cycles.use_denoising = denoise != "off"
     if cycles.use_denoising:
+        if "OpenImageDenoise" not in render_devices.denoisers():
+            raise ValueError("this Blender has no Open Image Denoise")
         cycles.denoiser = "OPENIMAGEDENOISE"
         cycles.denoising_input_passes = "RGB_ALBEDO_NORMAL"
         cycles.denoising_prefilter = "FAST" if denoise == "oidn_fast" else "ACCURATE"

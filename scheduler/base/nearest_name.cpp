@@ -54,7 +54,7 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
   const std::string nearest = nearest_name(name, candidates);
   if (!nearest.empty()) return fmt::format(" (did you mean '{}'?)", nearest);
   if (candidates.empty()) return {};
-  constexpr std::size_t kMostListed = 24;
+  constexpr std::size_t kMostListed = 32;
   const std::size_t shown = std::min(candidates.size(), kMostListed);
   std::string list;
   for (std::size_t i = 0; i < shown; ++i) {

@@ -35,7 +35,10 @@ Status describe_campaign(const PreparedCampaign& prepared, JobStore& store) {
   const std::string inputs = canonical_json(Json(input_stamps(prepared)));
   if (Status set = store.set_meta(kInputsKey, inputs); !set) return set;
   const std::string encoding = canonical_json(to_json(prepared.settings.image_encoding));
-  return store.set_meta(kEncodingKey, encoding);
+  if (Status set = store.set_meta(kEncodingKey, encoding); !set) return set;
+  const std::shared_ptr<const RenderChoices>& choices = prepared.expander.choices();
+  if (choices == nullptr) return {};
+  return store.set_meta(kChoicesKey, canonical_json(to_json(*choices)));
 }
 
 Status add_every_frame(const PreparedCampaign& prepared, JobStore& store) {
@@ -101,17 +104,29 @@ Status clear_unfinished(const CampaignFiles& files) {
 
 }  // namespace
 
+Status check_new_campaign(const fs::path& folder) {
+  const CampaignFiles files(folder);
+  std::error_code error;
+  if (!fs::exists(folder, error)) return {};
+  if (!fs::is_directory(folder, error)) {
+    return fail(ErrorKind::kInput, "{} is not a folder: give another one with -o", folder.string());
+  }
+  // Every submission makes its lock first: without one, whatever is there is somebody else's.
+  if (!fs::is_empty(folder, error) && !fs::exists(files.lock(), error)) return not_empty(folder);
+  if (fs::exists(files.store(), error)) {
+    return fail(ErrorKind::kInput,
+                "{} holds a campaign already: 'seedframe resume' goes on with it, or give another "
+                "folder with -o",
+                folder.string());
+  }
+  return {};
+}
+
 Result<LockedCampaign> create_campaign(const fs::path& folder, PreparedCampaign& prepared) {
   const CampaignFiles files(folder);
   std::error_code error;
   const bool existed = fs::exists(folder, error);
-  if (existed && !fs::is_directory(folder, error)) {
-    return fail(ErrorKind::kInput, "{} is not a folder: give another one with -o", folder.string());
-  }
-  // Every submission makes its lock first: without one, whatever is there is somebody else's.
-  if (existed && !fs::is_empty(folder, error) && !fs::exists(files.lock(), error)) {
-    return not_empty(folder);
-  }
+  if (Status possible = check_new_campaign(folder); !possible) return forward_error(possible);
   const auto not_possible = [&](const Error& cause) {
     if (!existed) fs::remove_all(folder, error);
     // The user chose this place, so it is for the user to fix.
@@ -121,12 +136,7 @@ Result<LockedCampaign> create_campaign(const fs::path& folder, PreparedCampaign&
   if (Status made = make_folders(folder); !made) return not_possible(made.error());
   Result<CampaignLock> lock = CampaignLock::acquire(files.lock());
   if (!lock) return forward_error(lock);
-  if (fs::exists(files.store(), error)) {
-    return fail(ErrorKind::kInput,
-                "{} holds a campaign already: 'seedframe resume' goes on with it, or give another "
-                "folder with -o",
-                folder.string());
-  }
+  if (Status possible = check_new_campaign(folder); !possible) return forward_error(possible);
   if (Status cleared = clear_unfinished(files); !cleared) return forward_error(cleared);
   Status made = write_campaign(files, prepared);
   if (made) made = rename_file(files.unfinished_store(), files.store());
@@ -183,6 +193,27 @@ Result<CampaignSource> source_of(const Campaign& campaign, const fs::path& home,
   return source;
 }
 
+namespace {
+
+/// What was chosen when the campaign was submitted, of frames whose config wants it chosen.
+Status take_choices(const Campaign& campaign, PreparedCampaign& prepared) {
+  if (!prepared.settings.quality) return {};
+  const std::string what = campaign.files.store().string();
+  const Result<std::string> text = campaign.store.meta(kChoicesKey);
+  if (!text) return forward_error(text);
+  if (text->empty()) {
+    return fail(ErrorKind::kCorrupt, "{} does not know what its frames are rendered with", what);
+  }
+  const Result<Json> json = parse_json(*text, what);
+  if (!json) return forward_error(json);
+  Result<RenderChoices> choices = render_choices_from_json(*json, what);
+  if (!choices) return forward_error(choices);
+  prepared.expander.set_choices(std::make_shared<const RenderChoices>(std::move(*choices)));
+  return {};
+}
+
+}  // namespace
+
 Result<PreparedCampaign> prepare_again(const Campaign& campaign, const fs::path& home,
                                        const std::vector<std::string>& allowed,
                                        const std::vector<Override>& more) {
@@ -190,7 +221,10 @@ Result<PreparedCampaign> prepare_again(const Campaign& campaign, const fs::path&
   if (!source) return forward_error(source);
   source->overrides.insert(source->overrides.end(), more.begin(), more.end());
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
-  if (prepared) return prepared;
+  if (prepared) {
+    if (Status taken = take_choices(campaign, *prepared); !taken) return forward_error(taken);
+    return prepared;
+  }
   return tl::unexpected(
       Error{prepared.error().kind,
             fmt::format("{}\n(the text is that of {}, the campaign's copy)",

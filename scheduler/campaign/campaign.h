@@ -25,6 +25,9 @@ struct LockedCampaign {
   CampaignLock lock;
 };
 
+/// Whether create_campaign could begin there now; see there.
+Status check_new_campaign(const std::filesystem::path& folder);
+
 /// Makes the folder, campaign.yaml and the store with every frame pending, and locks it. The folder
 /// must not exist, or be empty but for what a submission left that was killed (kInput). Every frame
 /// is expanded on its way into the store, so memory does not grow with their number. The store gets
@@ -35,6 +38,10 @@ Result<LockedCampaign> create_campaign(const std::filesystem::path& folder,
 
 /// Key in the store's meta: InputStamps of the frames' identities, as JSON (input_files.h).
 inline constexpr const char* kInputsKey = "inputs";
+
+/// Key in the store's meta: what frames are rendered with, where the config wants that chosen
+/// (RenderChoices as JSON).
+inline constexpr const char* kChoicesKey = "choices";
 
 /// Key in the store's meta: how the pictures of all frames that are done are encoded, as JSON.
 inline constexpr const char* kEncodingKey = "image";

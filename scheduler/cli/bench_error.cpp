@@ -54,6 +54,7 @@ Result<SceneStudy> study_scene(const ErrorArguments& arguments, const std::strin
   options.no_cache = true;
   const Result<RunSetup> setup = set_up_run(options, prepared->settings, arguments.wishes.frames);
   if (!setup) return forward_error(setup);
+  print_notes(*setup);
   blender = setup->blender.version;
   ErrorStudyWishes wishes = arguments.wishes;
   wishes.budget_s /= static_cast<double>(arguments.configs.size());

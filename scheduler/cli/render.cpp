@@ -126,6 +126,7 @@ int render(const RenderArguments& arguments) {
   if (options.worker.threads == 0) options.worker.threads = core_count();
   const Result<RunSetup> setup = set_up_run(options, prepared->settings, 1);
   if (!setup) return report(setup.error());
+  print_notes(*setup);
   const Result<TemporaryFolder> scratch = TemporaryFolder::make("seedframe-render");
   if (!scratch) return report(scratch.error());
   OneFrame frame(prepared->expander, arguments.frame, *setup->color, file);

@@ -10,6 +10,7 @@
 #include "campaign/input_images.h"
 #include "campaign/run_setup.h"
 #include "cli/allow_option.h"
+#include "cli/choose_settings.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/run_campaign.h"
@@ -49,6 +50,13 @@ void print_plan(const PreparedCampaign& prepared, const ExpansionSummary& summar
   fmt::print("seed {}, {} categories, {} meshes, {} images\n", settings.seed,
              settings.categories.size(), summary.meshes.size(), summary.used.images.size());
   fmt::print("{}", describe_constraints(prepared.expander, summary.constraints));
+  if (settings.quality) {
+    fmt::print(
+        "what each frame needs for {} of {} would be found out first, by {} small renderings "
+        "or a few more\n",
+        kQualityMetricNames[static_cast<std::size_t>(settings.quality->metric)],
+        settings.quality->max_error, 2 * settings.frame_count());
+  }
   fmt::print("by {}\n", describe(setup));
   fmt::print("into {}, about {} (nothing was written)\n", folder.string(),
              bytes_text(typical_frame_bytes(settings) * static_cast<std::uint64_t>(frames)));
@@ -78,6 +86,10 @@ int submit(const SubmitArguments& arguments) {
   if (arguments.dry_run) {
     print_plan(*prepared, *summary, *setup, wanted, folder);
     return kExitOk;
+  }
+  if (prepared->settings.quality) {
+    if (Status possible = check_new_campaign(folder); !possible) return report(possible.error());
+    if (Status chosen = choose_settings(*prepared, *setup); !chosen) return report(chosen.error());
   }
   Result<LockedCampaign> created = create_campaign(folder, *prepared);
   if (!created) return report(created.error());

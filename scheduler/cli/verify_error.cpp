@@ -99,6 +99,16 @@ void print_promise(const PromiseCheck& outcome, const ErrorPromise& promise) {
   fmt::print("beyond it: {}\n", fmt::join(outcome.beyond, ", "));
 }
 
+/// What the command line says, or else the config.
+ErrorPromise promise_of(const VerifyErrorArguments& arguments, const CampaignSettings& settings) {
+  if (arguments.max_error > 0.0 || !settings.quality) {
+    return {&measure_named(arguments.measure), arguments.max_error, arguments.share};
+  }
+  const ErrorBound bound = error_bound(*settings.quality);
+  return {&measure_named(kQualityMetricNames[static_cast<std::size_t>(bound.metric)]),
+          bound.max_error, settings.quality->share};
+}
+
 int verify_error(const VerifyErrorArguments& arguments) {
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
@@ -112,6 +122,7 @@ int verify_error(const VerifyErrorArguments& arguments) {
   const Result<RunSetup> setup =
       set_up_run(options, prepared->settings, static_cast<std::int64_t>(2 * frames->size()));
   if (!setup) return report(setup.error());
+  print_notes(*setup);
   const Result<TemporaryFolder> scratch = TemporaryFolder::make("seedframe-verify");
   if (!scratch) return report(scratch.error());
   const Result<ErrorCheck> check =
@@ -121,9 +132,8 @@ int verify_error(const VerifyErrorArguments& arguments) {
                      std::fprintf(stderr, "frame %lld\n", static_cast<long long>(frame));
                    });
   if (!check) return report(check.error());
-  const ErrorPromise promise{&measure_named(arguments.measure), arguments.max_error,
-                             arguments.share};
-  const bool is_promised = arguments.max_error > 0.0;
+  const ErrorPromise promise = promise_of(arguments, prepared->settings);
+  const bool is_promised = promise.max_error > 0.0;
   const PromiseCheck outcome = check_promise(*check, promise);
   if (arguments.json) {
     fmt::print("{}", readable_json(to_json(*check, promise, is_promised)));
@@ -164,8 +174,10 @@ void add_verify_error_verb(CLI::App& app, const OnSelected& on_selected) {
                    "what is bounded: rmse8, relmse, flip, mrse, dissimilarity or edge_noise")
       ->check(offers(measure_words()))
       ->capture_default_str();
-  verb->add_option("--max-error", arguments->max_error,
-                   "how wrong a frame may be; without it nothing is judged")
+  verb->add_option(
+          "--max-error", arguments->max_error,
+          "how wrong a frame may be (default: what the config's section 'quality' says; if there "
+          "is none, nothing is judged)")
       ->check(CLI::PositiveNumber);
   verb->add_option("--share", arguments->share, "of the frames that are to be within it, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))

@@ -9,6 +9,7 @@
 #include "config/determinism_section.h"
 #include "config/image_section.h"
 #include "config/plan_sections.h"
+#include "config/quality_section.h"
 #include "config/render_section.h"
 #include "config/scene_sections.h"
 #include "config/section_reader.h"
@@ -197,6 +198,7 @@ Result<CampaignConfig> read_campaign_config(const std::string& text,
   config.determinism = read_determinism(section, config.render);
   config.image = read_image(section, config.render);
   config.labels = read_labels(section, errors);
+  config.quality = read_quality(section, config.render, config.labels);
   if (const auto node = section.find("variables")) {
     SectionReader variables(*node, errors);
     config.campaign_variables = variables.variables("campaign");

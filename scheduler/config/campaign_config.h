@@ -212,6 +212,7 @@ struct CampaignConfig {
   Determinism determinism;
   ImageConfig image;
   LabelConfig labels;
+  std::optional<QualityWish> quality;
   std::vector<VariableConfig> campaign_variables, scene_variables, frame_variables;
   std::vector<MaterialConfig> materials;
   std::vector<ObjectConfig> objects;

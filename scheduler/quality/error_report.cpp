@@ -1,5 +1,6 @@
 #include "quality/error_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -68,12 +69,22 @@ std::string figures_table(const SceneStudy& scene) {
   return text;
 }
 
+/// By reason, in the order in which these first come.
 std::string left_out_text(const SceneStudy& scene) {
-  std::string text;
+  std::vector<std::pair<std::string, std::string>> reasons;  ///< with the names of variations
   for (const MeasuredVariation& measured : scene.variations) {
     if (measured.left_out.empty()) continue;
-    text += fmt::format("- {}: {}\n", measured.variation.name, measured.left_out);
+    const auto known = std::find_if(reasons.begin(), reasons.end(), [&](const auto& reason) {
+      return reason.first == measured.left_out;
+    });
+    if (known == reasons.end()) {
+      reasons.emplace_back(measured.left_out, measured.variation.name);
+    } else {
+      known->second += "; " + measured.variation.name;
+    }
   }
+  std::string text;
+  for (const auto& [reason, names] : reasons) text += fmt::format("- {}: {}\n", reason, names);
   return text.empty() ? text : "Left out:\n\n" + text;
 }
 

@@ -117,8 +117,9 @@ Variation plain_samples(int samples) {
           Lever::kSamples,
           samples,
           {set_to("render.samples", std::to_string(samples)), set_to("render.adaptive", "null"),
-           set_to("render.denoise", "off"), set_to("render.light_threshold", "0"),
-           set_to("render.filter_glossy", "0"), set_to("render.texture_limit_px", "0")}};
+           set_to("render.denoise", "off"), set_to("quality", "null"),
+           set_to("render.light_threshold", "0"), set_to("render.filter_glossy", "0"),
+           set_to("render.texture_limit_px", "0")}};
 }
 
 Variation reference_variation(int samples) {

@@ -33,6 +33,7 @@ class SceneExpander::Program {
   Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes) const;
 
   std::int64_t frame_count() const { return config_.frame_count(); }
+  std::shared_ptr<const RenderChoices> choices;  ///< null: everything is as the config says
   const std::vector<CompiledConstraint>& constraints() const { return compiled_.constraints; }
   Result<std::vector<OfferedAsset>> offered() const {
     return seedframe::offered_assets(compiled_.objects, placer_.assets(), config_.categories);
@@ -43,6 +44,7 @@ class SceneExpander::Program {
   const AllowedFolders& allowed() const { return materials_.library().allowed(); }
 
  private:
+  void apply_choice(std::int64_t frame, RenderSettings& render) const;
   RenderSettings render_settings(const EvaluationContext& context) const;
   /// Before anything is evaluated.
   Result<EvaluationContext> context_of(std::int64_t scene, std::int64_t view) const;
@@ -82,6 +84,14 @@ RenderSettings SceneExpander::Program::render_settings(const EvaluationContext& 
   render.seed =
       static_cast<std::uint32_t>(render_seed_.bits(context.position(Level::kFrame)) >> 33);
   return render;
+}
+
+void SceneExpander::Program::apply_choice(std::int64_t frame, RenderSettings& render) const {
+  const auto found = choices->find(frame);
+  if (found == choices->end()) return;
+  render.samples = found->second.samples;
+  render.adaptive = found->second.adaptive;
+  render.denoise = found->second.denoise;
 }
 
 void SceneExpander::Program::set_sweep(std::int64_t combination, VariableValues& values) const {
@@ -224,6 +234,7 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
     result.meshes.try_emplace(instance.spec.mesh, std::move(instance.buffer));
     result.spec.instances.push_back(std::move(instance.spec));
   }
+  if (choices) apply_choice(frame, result.spec.render);
   if (wishes.id) result.id = frame_id(result.spec);
   return result;
 }
@@ -245,6 +256,14 @@ Result<SceneExpander> SceneExpander::compile(const CampaignConfig& config, Asset
 Result<ExpandedFrame> SceneExpander::expand(std::int64_t frame,
                                             const ExpansionWishes& wishes) const {
   return program_->expand(frame, wishes);
+}
+
+void SceneExpander::set_choices(std::shared_ptr<const RenderChoices> choices) {
+  program_->choices = std::move(choices);
+}
+
+const std::shared_ptr<const RenderChoices>& SceneExpander::choices() const {
+  return program_->choices;
 }
 
 std::int64_t SceneExpander::frame_count() const { return program_->frame_count(); }

@@ -12,6 +12,7 @@
 #include "base/allowed_folders.h"
 #include "base/error.h"
 #include "scene/expanded_frame.h"
+#include "spec/quality_wish.h"
 
 namespace seedframe {
 
@@ -37,6 +38,11 @@ class SceneExpander {
   Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes = {}) const;
 
   std::int64_t frame_count() const;
+
+  /// From now on these frames are rendered with what was chosen for them: to be called before the
+  /// expander is shared by threads. Nothing where nothing was chosen.
+  void set_choices(std::shared_ptr<const RenderChoices> choices);
+  const std::shared_ptr<const RenderChoices>& choices() const;
 
   /// What any frame can hold; see offered_assets.
   Result<std::vector<OfferedAsset>> offered_assets() const;

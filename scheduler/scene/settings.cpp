@@ -29,6 +29,7 @@ CampaignSettings settings_of(const CampaignConfig& config) {
   settings.image_place = config.image.place;
   settings.labels = config.labels.source;
   settings.twin_check = config.labels.check;
+  settings.quality = config.quality;
   return settings;
 }
 

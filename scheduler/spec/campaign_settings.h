@@ -13,6 +13,7 @@
 #include "spec/frame_spec.h"
 #include "spec/image_encoding.h"
 #include "spec/image_settings.h"
+#include "spec/quality_wish.h"
 #include "spec/render_device.h"
 #include "spec/twin_check.h"
 
@@ -45,6 +46,8 @@ struct CampaignSettings {
   Place image_place;                                 ///< for errors that only OCIO can find
   LabelSource labels = LabelSource::kIndexPass;
   TwinCheck twin_check;
+  /// What frames are rendered with is then chosen for each; render has the most samples.
+  std::optional<QualityWish> quality;
 
   std::int64_t frame_count() const { return scenes * frames_per_scene; }
 };
