@@ -9,7 +9,7 @@
 namespace seedframe {
 namespace {
 
-/// "2 to 96 samples, 24 for half of the frames".
+/// "2 to 96 samples, at most 24 for half of the frames".
 std::string samples_text(const RenderChoices& choices) {
   std::vector<int> samples;
   for (const auto& [frame, choice] : choices) samples.push_back(choice.samples);
@@ -36,8 +36,9 @@ Status choose_settings(PreparedCampaign& prepared, const RunSetup& setup) {
                 });
   if (!calibration) return forward_error(calibration);
   if (!quiet) {
-    std::fprintf(stderr, "\rcalibrated by %lld small renderings, %.1f CPU s: %s%s\n",
-                 static_cast<long long>(all), calibration->cpu_s,
+    std::fprintf(stderr,
+                 "\rcalibrated by %lld small renderings (pilots %.1f, scouts %.1f CPU s): %s%s\n",
+                 static_cast<long long>(all), calibration->pilots_cpu_s, calibration->scouts_cpu_s,
                  samples_text(calibration->choices).c_str(),
                  calibration->denoised > 0
                      ? fmt::format(", {} frames denoised", calibration->denoised).c_str()

@@ -62,6 +62,7 @@ Result<PreparedCampaign> prepare_with(const Campaign& campaign, const RenderArgu
   if (!more) return forward_error(more);
   if (arguments.samples > 0) {
     more->push_back({"render.samples", std::to_string(arguments.samples)});
+    more->push_back({"quality", "null"});  // which would choose others
   }
   Result<PreparedCampaign> prepared =
       prepare_again(campaign, seedframe_home(), arguments.allowed, *more);

@@ -134,7 +134,8 @@ class Calibrator {
   std::map<std::int64_t, double> noise_;                                  ///< by frame
   std::string denoiser_failure_;
   std::string failure_;  ///< the first
-  double cpu_s_ = 0.0;
+  double pilots_cpu_s_ = 0.0;
+  double scouts_cpu_s_ = 0.0;
 };
 
 void Calibrator::add_pilot(std::int64_t frame) {
@@ -167,8 +168,9 @@ void Calibrator::take(std::size_t number, Result<ProbedFrame> probed) {
     if (failure.empty()) failure = probed.error().message;
     return;
   }
-  cpu_s_ += probed->cpu_s;
-  if (purpose.use != Use::kScoutA && purpose.use != Use::kScoutB) {
+  const bool scout = purpose.use == Use::kScoutA || purpose.use == Use::kScoutB;
+  (scout ? scouts_cpu_s_ : pilots_cpu_s_) += probed->cpu_s;
+  if (!scout) {
     pilots_.at(frame)[purpose] = std::move(probed->picture);
     return;
   }
@@ -293,7 +295,8 @@ Result<Calibration> Calibrator::finish() const {
   }
   Calibration calibration;
   calibration.pilots = static_cast<int>(pilots_.size());
-  calibration.cpu_s = cpu_s_;
+  calibration.pilots_cpu_s = pilots_cpu_s_;
+  calibration.scouts_cpu_s = scouts_cpu_s_;
   for (const Probe& probe : probes_) {
     if (calibration.choices.contains(probe.frame)) continue;
     const std::optional<double> scout = noise(probe.frame);

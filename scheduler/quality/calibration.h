@@ -17,7 +17,8 @@ namespace seedframe {
 struct Calibration {
   RenderChoices choices;
   int pilots = 0;
-  double cpu_s = 0.0;              ///< that its renderings took
+  double pilots_cpu_s = 0.0;       ///< whatever the number of frames
+  double scouts_cpu_s = 0.0;       ///< of all frames
   std::int64_t beyond_reach = 0;   ///< frames for which render.samples are not enough, as predicted
   std::int64_t denoised = 0;       ///< frames
   std::vector<std::string> notes;  ///< that the user should read, a sentence each

@@ -34,20 +34,36 @@ Groups group(const std::vector<Observation>& observations) {
   return groups;
 }
 
-/// One for all groups, each with a level of its own; 1 where all scouts are alike.
-double fit_slope(const Groups& groups) {
+/// Sums over scouts about their mean, of their squares and of their products with errors.
+struct Moments {
   double products = 0.0;
   double squares = 0.0;
-  for (const auto& [setting, each] : groups) {
-    const double scout = Group::mean(each.scouts);
-    const double error = Group::mean(each.errors);
-    for (std::size_t i = 0; i < each.scouts.size(); ++i) {
-      products += (each.scouts[i] - scout) * (each.errors[i] - error);
-      squares += (each.scouts[i] - scout) * (each.scouts[i] - scout);
+
+  void add(const Group& group) {
+    const double scout = Group::mean(group.scouts);
+    const double error = Group::mean(group.errors);
+    for (std::size_t i = 0; i < group.scouts.size(); ++i) {
+      products += (group.scouts[i] - scout) * (group.errors[i] - error);
+      squares += (group.scouts[i] - scout) * (group.scouts[i] - scout);
     }
   }
-  constexpr double kAlike = 1e-6;
-  return squares < kAlike ? 1.0 : std::clamp(products / squares, 0.0, kMostSlope);
+  /// `otherwise` where all scouts are alike.
+  double slope(double otherwise) const {
+    constexpr double kAlike = 1e-6;
+    return squares < kAlike ? otherwise : std::clamp(products / squares, 0.0, kMostSlope);
+  }
+};
+
+double fit_slope(const Groups& groups) {
+  Moments all;
+  for (const auto& [setting, each] : groups) all.add(each);
+  return all.slope(1.0);
+}
+
+double fit_slope(const Group& group, double common) {
+  Moments own;
+  own.add(group);
+  return (own.slope(common) + common) / 2.0;
 }
 
 }  // namespace
@@ -59,9 +75,10 @@ ErrorModel::ErrorModel(const std::vector<Observation>& observations) {
   std::size_t count = 0;
   for (const auto& [setting, each] : groups) {
     settings_.push_back(setting);
-    levels_.push_back(Group::mean(each.errors) - slope_ * Group::mean(each.scouts));
+    slopes_.push_back(fit_slope(each, slope_));
+    levels_.push_back(Group::mean(each.errors) - slopes_.back() * Group::mean(each.scouts));
     for (std::size_t i = 0; i < each.scouts.size(); ++i, ++count) {
-      const double rest = each.errors[i] - levels_.back() - slope_ * each.scouts[i];
+      const double rest = each.errors[i] - levels_.back() - slopes_.back() * each.scouts[i];
       squares += rest * rest;
     }
   }
@@ -76,8 +93,8 @@ double ErrorModel::predict(double scout, double setting) const {
   const auto above = std::upper_bound(settings_.begin() + 1, settings_.end() - 1, at);
   const auto i = static_cast<std::size_t>(above - settings_.begin());
   const double share = (at - settings_[i - 1]) / (settings_[i] - settings_[i - 1]);
-  const double level = levels_[i - 1] + share * (levels_[i] - levels_[i - 1]);
-  return std::exp(level + slope_ * std::log(scout));
+  const auto value = [&](std::size_t k) { return levels_[k] + slopes_[k] * std::log(scout); };
+  return std::exp(value(i - 1) + share * (value(i) - value(i - 1)));
 }
 
 double setting_for(const ErrorModel& model, double scout, double max_error, double margin,

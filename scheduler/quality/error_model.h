@@ -15,10 +15,10 @@ struct Observation {
   double error = 0.0;  ///< measured
 };
 
-/// log error = level(log setting) + slope · log scout: the level is joined by straight lines
-/// between the settings that were observed, and goes on beyond them as its last piece does. Fitted
-/// by least squares; a slope outside of 0 … 1.5 is what few pilots make of chance, and is held
-/// there.
+/// log error = level + slope · log scout at each setting that was observed; between them, and
+/// beyond as in the last piece, its value goes straight over the logarithm of the setting. Fitted
+/// by least squares. Few pilots know little of a slope: each setting's is drawn half-way to the one
+/// that fits them all, which is held between 0 and 1.5.
 class ErrorModel {
  public:
   /// Observations whose scout or error is not above 0 are left out. `is_usable` is false when fewer
@@ -31,11 +31,12 @@ class ErrorModel {
   /// Standard deviation of log(error / prediction) over the observations, at least 0.1: less
   /// cannot be known of a handful.
   double spread() const { return spread_; }
-  double slope() const { return slope_; }
+  double slope() const { return slope_; }  ///< the one that fits all settings
 
  private:
   std::vector<double> settings_;  ///< logarithms, rising
   std::vector<double> levels_;    ///< of each
+  std::vector<double> slopes_;    ///< of each
   double slope_ = 1.0;
   double spread_ = 0.0;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include "quality/reference.h"
@@ -15,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// So many samples are measured first: from them follows what more of them take.
+// So many samples are timed first: from them follows what more of them take.
 constexpr int kFew = 1;
 constexpr int kSome = 16;
 
@@ -45,16 +46,16 @@ class ErrorStudy : public SideClient {
   void failed(std::int64_t job, const std::string& why) override;
 
  private:
-  enum class Purpose { kWarmUp, kHalfA, kHalfB, kMeasured };
+  enum class Purpose { kWarmUp, kTimed, kHalfA, kHalfB, kMeasured };
   struct Job {
     Purpose purpose = Purpose::kMeasured;
-    std::size_t variation = 0;  ///< of kMeasured
+    std::size_t variation = 0;  ///< of kTimed and kMeasured
     std::size_t pilot = 0;
   };
   struct Measured {
     Variation variation;
     std::vector<std::optional<MeasuredFrame>> frames;
-    std::vector<Picture> pictures;  ///< until there is a reference
+    std::vector<double> early_wall_s;  ///< of kTimed, pilots in any order
     std::string left_out;
   };
 
@@ -69,7 +70,7 @@ class ErrorStudy : public SideClient {
   std::int64_t frame_of(std::size_t pilot) const {
     return pilots_[pilot].scene * prepared_.settings.frames_per_scene + pilots_[pilot].view;
   }
-  /// With both halves there is a reference, and what was rendered before gets its errors.
+  /// With both halves there is a reference.
   Status half_done(std::size_t pilot);
 
   const PreparedCampaign& prepared_;
@@ -101,36 +102,31 @@ void ErrorStudy::plan() {
   for (Variation& variation : variation_grid(pilots_, wishes_.most_samples)) {
     measured_.push_back({std::move(variation), {}, {}, {}});
     measured_.back().frames.resize(pilots_.size());
-    measured_.back().pictures.resize(pilots_.size());
   }
   for (auto& halves : halves_) halves.resize(pilots_.size());
   references_.resize(pilots_.size());
-  const auto is_early = [](const Measured& measured) {
-    const Variation& variation = measured.variation;
-    return variation.lever == Lever::kSamples && variation.samples <= kSome;
-  };
+  // A worker's first renderings are slower than all that follow: they say how long a reference may
+  // take, and are not measured.
   add_jobs(Purpose::kWarmUp, 0);
-  for (std::size_t i = 0; i < measured_.size(); ++i) {
-    if (is_early(measured_[i])) add_jobs(Purpose::kMeasured, i);
+  for (const int samples : {kFew, kSome}) {
+    const auto row = std::find_if(measured_.begin(), measured_.end(), [&](const Measured& each) {
+      return each.variation.lever == Lever::kSamples && each.variation.samples == samples;
+    });
+    add_jobs(Purpose::kTimed, static_cast<std::size_t>(row - measured_.begin()));
   }
-  // All textures and meshes have been seen: what is measured now is measured of a warm worker.
+  add_jobs(Purpose::kWarmUp, 0);  // so that all that is timed is known when a reference begins
   add_jobs(Purpose::kHalfA, 0);
   add_jobs(Purpose::kHalfB, 0);
-  for (std::size_t i = 0; i < measured_.size(); ++i) {
-    if (!is_early(measured_[i])) add_jobs(Purpose::kMeasured, i);
-  }
+  for (std::size_t i = 0; i < measured_.size(); ++i) add_jobs(Purpose::kMeasured, i);
 }
 
 std::optional<double> ErrorStudy::expected_s(int samples) const {
   const auto seconds = [&](int of) -> std::optional<double> {
-    double sum = 0.0;
     for (const Measured& measured : measured_) {
-      if (measured.variation.lever != Lever::kSamples || measured.variation.samples != of) continue;
-      for (const auto& frame : measured.frames) {
-        if (!frame) return std::nullopt;
-        sum += frame->wall_s;
-      }
-      return sum / static_cast<double>(pilots_.size());
+      const std::vector<double>& wall_s = measured.early_wall_s;
+      if (wall_s.empty() || measured.variation.samples != of) continue;
+      return std::accumulate(wall_s.begin(), wall_s.end(), 0.0) /
+             static_cast<double>(wall_s.size());
     }
     return std::nullopt;
   };
@@ -203,11 +199,6 @@ Status ErrorStudy::half_done(std::size_t pilot) {
   references_[pilot] = std::move(*reference);
   a.reset();
   b.reset();
-  for (Measured& measured : measured_) {  // those that were rendered before
-    if (!measured.frames[pilot]) continue;
-    measured.frames[pilot]->error = error_against(*references_[pilot], measured.pictures[pilot]);
-    measured.pictures[pilot] = {};
-  }
   return {};
 }
 
@@ -215,6 +206,10 @@ Status ErrorStudy::rendered(std::int64_t number, const SideFrame& frame) {
   const Job& job = jobs_[static_cast<std::size_t>(number)];
   if (job.purpose == Purpose::kWarmUp) return {};
   const std::lock_guard lock(mutex_);
+  if (job.purpose == Purpose::kTimed) {
+    measured_[job.variation].early_wall_s.push_back(frame.timings.build_s + frame.timings.render_s);
+    return {};
+  }
   if (job.purpose != Purpose::kMeasured) {
     halves_[job.purpose == Purpose::kHalfA ? 0 : 1][job.pilot] = frame.passes;
     reference_cpu_s_ += frame.timings.cpu_s;
@@ -226,12 +221,9 @@ Status ErrorStudy::rendered(std::int64_t number, const SideFrame& frame) {
   Measured& measured = measured_[job.variation];
   measured.frames[job.pilot] =
       MeasuredFrame{frame.timings.cpu_s, frame.timings.build_s + frame.timings.render_s, {}};
-  Picture picture{frame.passes.combined, std::move(*display)};
-  if (references_[job.pilot]) {
-    measured.frames[job.pilot]->error = error_against(*references_[job.pilot], picture);
-  } else {
-    measured.pictures[job.pilot] = std::move(picture);
-  }
+  if (!references_[job.pilot]) return {};  // which failed: result() says so
+  measured.frames[job.pilot]->error =
+      error_against(*references_[job.pilot], {frame.passes.combined, std::move(*display)});
   return {};
 }
 
@@ -241,7 +233,8 @@ void ErrorStudy::failed(std::int64_t number, const std::string& why) {
   if (job.purpose == Purpose::kMeasured) {
     std::string& left_out = measured_[job.variation].left_out;
     if (left_out.empty()) left_out = why.substr(0, why.find('\n'));
-  } else if (job.purpose != Purpose::kWarmUp && reference_error_) {
+  } else if ((job.purpose == Purpose::kHalfA || job.purpose == Purpose::kHalfB) &&
+             reference_error_) {
     reference_error_ = fail(ErrorKind::kRender, "the reference of frame {} was not rendered: {}",
                             frame_of(job.pilot), why);
   }

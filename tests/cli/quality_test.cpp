@@ -95,6 +95,15 @@ TEST_F(QualityTest, ADryRunOnlySaysThatItWould) {
               HasSubstr("what each frame needs for rmse8 of 0.001 would be found out first"));
 }
 
+TEST_F(QualityTest, AFrameBesideItHasTheSamplesThatAreAskedFor) {
+  ASSERT_EQ(with_fake({"submit", "gears.yaml", "-o", "c", "--quiet"}).exit_code, 0);
+  const Outcome asked = with_fake({"render", "c", "--frame", "0", "--samples", "77"});
+  ASSERT_EQ(asked.exit_code, 0) << asked.errors;
+  EXPECT_THAT(asked.output, HasSubstr("at 77 samples"));
+  const Outcome own = with_fake({"render", "c", "--frame", "0"});
+  EXPECT_THAT(own.output, HasSubstr(fmt::format("at {} samples", samples_of("c", 0))));
+}
+
 TEST_F(QualityTest, IsWhatVerifyErrorHoldsTheFramesTo) {
   ASSERT_EQ(with_fake({"submit", "gears.yaml", "-o", "c", "--quiet"}).exit_code, 0);
   const Outcome outcome =

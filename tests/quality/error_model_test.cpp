@@ -36,6 +36,18 @@ TEST(ErrorModel, FitsHowMuchTheScoutTells) {
   EXPECT_EQ(ErrorModel(exact(3.0)).slope(), 1.5);
 }
 
+TEST(ErrorModel, ASettingMayHaveASlopeOfItsOwn) {
+  std::vector<Observation> observations;
+  for (const double scout : {1.0, 2.0, 4.0}) {
+    observations.push_back({scout, 1.0, scout});  // slope 1
+    observations.push_back({scout, 2.0, 1.0});    // and 0
+  }
+  const ErrorModel model(observations);
+  EXPECT_NEAR(model.slope(), 0.5, 1e-12);
+  EXPECT_NEAR(model.predict(4.0, 1.0) / model.predict(1.0, 1.0), std::pow(4.0, 0.75), 1e-12);
+  EXPECT_NEAR(model.predict(4.0, 2.0) / model.predict(1.0, 2.0), std::pow(4.0, 0.25), 1e-12);
+}
+
 TEST(ErrorModel, KnowsHowFarItIsOff) {
   std::vector<Observation> observations = exact();
   for (std::size_t i = 0; i < observations.size(); ++i) {

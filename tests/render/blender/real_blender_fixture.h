@@ -136,7 +136,7 @@ class RealBlender : public testing::Test, public RenderClient {
   /// One white ball of radius 1 at 4 m, lit evenly by the world alone.
   FrameSpec ball() const {
     FrameSpec spec;
-    spec.render = {48, 36, 4, 1, 2, 1.5, 0.0, true, false, {}, Denoise::kOff};
+    spec.render = {48, 36, 4, 1, 2, 1.5, 0.0, true, false, {}, Denoise::kOff, {}};
     spec.camera = {{60.0, 60.0}, {23.5, 17.5}, 0.01, 100.0};
     spec.world.color = {1, 1, 1};
     spec.world.strength = 1.0;

@@ -1,0 +1,117 @@
+// Levers of the path tracer: each has its effect on the picture, on nothing else, and repeats.
+
+#include <functional>
+
+#include <gmock/gmock.h>
+
+#include "tests/render/blender/real_blender_fixture.h"
+
+namespace seedframe {
+namespace {
+
+class RealBlenderLevers : public RealBlender {
+ protected:
+  /// A BMP of 256 × 256 pixels, black and white by turns.
+  std::string add_chequers() {
+    constexpr std::uint32_t kSide = 256;
+    std::string bytes = "BM";
+    const auto put = [&bytes](std::uint32_t value, int count) {
+      for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i));
+    };
+    put(54 + 3 * kSide * kSide, 4), put(0, 4), put(54, 4);
+    put(40, 4), put(kSide, 4), put(kSide, 4), put(1, 2), put(24, 2);
+    for (int i = 0; i < 6; ++i) put(0, 4);
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) put((i + i / kSide) % 2 * 0xffffff, 3);
+    return add_texture_file(bytes);
+  }
+
+  /// Balls of four materials that light and mirror each other, under a lamp.
+  FrameSpec balls() {
+    FrameSpec spec = ball();
+    spec.render.samples = 8;
+    spec.render.max_bounces = 6;
+    spec.world.strength = 0.3;
+    spec.materials.assign(4, spec.materials[0]);
+    spec.materials[1].metallic = 1.0;
+    spec.materials[1].roughness = 0.1;
+    spec.materials[2].transmission = 1.0;
+    spec.materials[2].roughness = 0.0;
+    spec.materials[3].textures["color"] = add_chequers();
+    spec.instances = {instance("ball/0", 1, smooth, {0}, placed(-1, 0, -4, 0.9)),
+                      instance("ball/1", 2, smooth, {1}, placed(0.8, 0, -4, 0.9)),
+                      instance("ball/2", 3, smooth, {2}, placed(0, 0.7, -3, 0.4)),
+                      instance("ball/3", 4, smooth, {3}, placed(0, -0.9, -3.5, 0.5))};
+    LightSpec lamp;
+    lamp.kind = LightKind::kPoint;
+    lamp.camera_from_light = placed(1, 2, -2);
+    lamp.color = {1, 1, 1};
+    lamp.power = 200;
+    lamp.radius_m = 0.1;
+    spec.lights = {lamp};
+    return spec;
+  }
+};
+
+TEST_F(RealBlenderLevers, ChangeThePictureOnlyAndRepeat) {
+  using Change = std::function<void(RenderLevers&)>;
+  const std::vector<std::pair<const char*, Change>> changes = {
+      {"nothing", [](RenderLevers&) {}},
+      {"diffuse bounces", [](RenderLevers& levers) { levers.bounces.diffuse = 0; }},
+      {"glossy bounces", [](RenderLevers& levers) { levers.bounces.glossy = 0; }},
+      {"transmission bounces", [](RenderLevers& levers) { levers.bounces.transmission = 0; }},
+      {"light_threshold", [](RenderLevers& levers) { levers.light_threshold = 1.0; }},
+      {"clamp_direct", [](RenderLevers& levers) { levers.clamp_direct = 0.2; }},
+      {"filter_glossy", [](RenderLevers& levers) { levers.filter_glossy = 1.0; }},
+      {"texture_limit_px", [](RenderLevers& levers) { levers.texture_limit_px = 128; }},
+      {"nothing again", [](RenderLevers&) {}},
+  };
+  std::vector<std::int64_t> order;
+  for (const auto& [name, change] : changes) {
+    const auto frame = static_cast<std::int64_t>(order.size());
+    specs[frame] = balls();
+    change(specs[frame].render.levers);
+    order.push_back(frame);
+  }
+  ASSERT_TRUE(render(order, 1)) << testing::PrintToString(failures);
+  std::map<std::int64_t, std::map<std::string, std::string>> hashes;
+  for (const auto& [frame, each] : passes) hashes[frame] = each.pixel_hashes;
+  const auto last = static_cast<std::int64_t>(changes.size()) - 1;
+  EXPECT_EQ(hashes[last], hashes[0]) << "nothing stays of what other frames had";
+  for (std::int64_t frame = 1; frame < last; ++frame) {
+    const char* name = changes[static_cast<std::size_t>(frame)].first;
+    // With its light tree, Blender 3.5 knows better which lamps matter, and ignores the threshold.
+    const bool ignored = name == std::string("light_threshold") && ready.blender >= "3.5";
+    EXPECT_EQ(hashes[frame]["combined"] == hashes[0]["combined"], ignored) << name;
+    EXPECT_EQ(hashes[frame]["index"], hashes[0]["index"]) << name;
+    EXPECT_EQ(hashes[frame]["depth"], hashes[0]["depth"]) << name;
+  }
+
+  std::reverse(order.begin(), order.end());
+  ASSERT_TRUE(render(order, 2)) << testing::PrintToString(failures);
+  for (const auto& [frame, each] : passes) {
+    EXPECT_EQ(each.pixel_hashes, hashes[frame]) << changes[static_cast<std::size_t>(frame)].first;
+  }
+}
+
+TEST_F(RealBlenderLevers, HolesNeedTransparentBounces) {
+  FrameSpec spec = ball();
+  spec.materials[0].textures["alpha"] = add_texture(0, 0, 0);  // all of it is a hole
+  specs[0] = specs[1] = spec;
+  specs[1].render.levers.bounces.transparent = 0;
+  ASSERT_TRUE(render({0, 1}, 1)) << testing::PrintToString(failures);
+  EXPECT_GT(passes[0].combined.at(18, 24, 0), 0.9F) << "the world shines through";
+  EXPECT_LT(passes[1].combined.at(18, 24, 0), 0.1F);
+}
+
+TEST_F(RealBlenderLevers, PathGuidingIsRenderedWhereThereIsIt) {
+  specs[0] = balls();
+  specs[0].render.levers.path_guiding = true;
+  const auto summary = render({0}, 1);
+  ASSERT_TRUE(summary) << summary.error().message;
+  if (summary->committed == 0) {
+    EXPECT_THAT(failures[0], testing::HasSubstr("has no path guiding"));
+  }
+}
+
+}  // namespace
+}  // namespace seedframe
