@@ -130,7 +130,7 @@ void StabilityScenes::add(const std::string& group, const std::string& name,
 
 FrameSpec StabilityScenes::empty_frame(const View& view) const {
   FrameSpec spec;
-  spec.render = {320, 240, 1, 1, 0, 1.5, 0.0, false, false, {}, Denoise::kOff};
+  spec.render = {320, 240, 1, 1, 0, 1.5, 0.0, false, false, {}, Denoise::kOff, {}};
   const double focal = 160.0 / std::tan(0.5 * view.fov_deg * portable::kPi / 180.0);
   spec.camera.focal_px = {focal, focal};
   spec.camera.center_px = {159.5, 119.5};
