@@ -7,6 +7,8 @@
 make_bare_system() {
   [ "$(id -u)" = 0 ] || { echo "a bare system needs root, for chroot" >&2; exit 4; }
   bare_system=$1
+  mkdir -p "$bare_system"
+  chmod 755 "$bare_system"  # a root that users may look into, which a folder of mktemp is not
   command -v debootstrap >/dev/null || apt-get install -y -qq --no-install-recommends debootstrap >/dev/null
   if [ ! -f "$bare_system/etc/debian_version" ]; then
     debootstrap --variant=minbase bookworm "$bare_system" >/dev/null
