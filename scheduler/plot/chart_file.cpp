@@ -9,6 +9,14 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
+#ifdef __SANITIZE_ADDRESS__
+// What fontconfig keeps for the fonts that it has found is no leak of ours.
+extern "C" const char* __lsan_default_suppressions();   // NOLINT(*-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT(*-reserved-identifier)
+  return "leak:libfontconfig";
+}
+#endif
+
 namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
