@@ -56,8 +56,8 @@ Determinism read_determinism(SectionReader& campaign, const RenderConfig& render
   if (render.levers.path_guiding && determinism.mode != Mode::kNone) {
     campaign.errors().add(
         render.place,
-        "path_guiding learns from samples in the order in which threads finish them, so no two "
-        "renderings are the same: leave it out, or give the promise up with 'determinism: none'");
+        "nothing holds path_guiding to learning the same whatever the threads do, so it is not "
+        "part of the promise: leave it out, or give the promise up with 'determinism: none'");
   }
   if (render.device != RenderDevice::kCpu && determinism.mode == Mode::kPortable) {
     campaign.errors().add(render.place,
