@@ -21,8 +21,8 @@ std::string describe_work(const CampaignSettings& settings, std::size_t frames) 
     return fmt::format("tracing the labels of {} frames of {} × {}", frames, render.width,
                        render.height);
   }
-  return fmt::format("rendering {} frames of {} × {} at {} samples", frames, render.width,
-                     render.height, render.samples);
+  return fmt::format("rendering {} frames of {} × {} at {}{} samples", frames, render.width,
+                     render.height, settings.quality ? "most " : "", render.samples);
 }
 
 int print_outcome(const Campaign& campaign, std::int64_t done_before, const RunSummary& summary,

@@ -144,8 +144,9 @@ void Calibrator::add_pilot(std::int64_t frame) {
   pilots_[frame];
   add(frame, {Use::kHalfA}, plain(kReferenceHalf), "half.a", quarter_);
   add(frame, {Use::kHalfB}, plain(kReferenceHalf), "half.b", quarter_);
-  for (const int samples : kPlainSettings)
+  for (const int samples : kPlainSettings) {
     add_settings(frame, Family::kPlain, samples, plain(samples));
+  }
   if (most_ > kAdaptiveFrom) {
     for (const double threshold : kThresholds) {
       add_settings(frame, Family::kAdaptive, threshold, adaptive(threshold));
@@ -296,7 +297,6 @@ Result<Calibration> Calibrator::finish() const {
                 failure_.empty() ? "" : ": ", failure_);
   }
   Calibration calibration;
-  calibration.pilots = static_cast<int>(pilots_.size());
   calibration.pilots_cpu_s = pilots_cpu_s_;
   calibration.scouts_cpu_s = scouts_cpu_s_;
   for (const Probe& probe : probes_) {

@@ -16,7 +16,6 @@ namespace seedframe {
 
 struct Calibration {
   RenderChoices choices;
-  int pilots = 0;
   double pilots_cpu_s = 0.0;       ///< whatever the number of frames
   double scouts_cpu_s = 0.0;       ///< of all frames
   std::int64_t beyond_reach = 0;   ///< frames for which render.samples are not enough, as predicted

@@ -45,8 +45,8 @@ Variation plain_samples(int samples);
 Variation reference_variation(int samples);
 
 /// What is worth trying on such frames, the most telling first: importance maps only where there is
-/// an environment map, texture sizes only where there are textures, levels of detail only of
-/// `objects` (names of sections of the config). Plain samples go up to `most_samples`.
+/// an environment map, texture sizes only where there are images, levels of detail of those
+/// sections `objects` that the frames have copies of. Plain samples go up to `most_samples`.
 std::vector<Variation> variation_grid(const std::vector<ExpandedFrame>& pilots, int most_samples);
 
 }  // namespace seedframe
