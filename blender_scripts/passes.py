@@ -28,6 +28,7 @@ class PassRenderer:
         render.stamp_note_text = frame_id
         render.resolution_x = settings["width"]
         render.resolution_y = settings["height"]
+        _set_region(render, settings)
         render.filepath = output
         cycles.samples = settings["samples"]
         cycles.seed = settings["seed"]
@@ -55,7 +56,6 @@ def _set_constants(scene):
     render.film_transparent = False
     render.dither_intensity = 0.0
     render.use_motion_blur = False
-    render.use_border = False
     render.simplify_subdivision_render = 0
     render.simplify_child_particles_render = 0.0
     render.use_compositing = False
@@ -97,6 +97,20 @@ def _set_levers(scene, max_bounces, levers):
     limit = levers.get("texture_limit_px", 0)
     scene.render.use_simplify = limit > 0
     cycles.texture_limit_render = str(limit) if limit > 0 else "OFF"
+
+
+def _set_region(render, settings):
+    """Only these pixels of the image are rendered and written; each is what it is in the whole image."""
+    region = settings.get("region")
+    render.use_border = render.use_crop_to_border = region is not None
+    if region:
+        x, y, width, height = region
+        # Shares of the image, from its lower left corner. Blender rounds their products with its size
+        # down, in float32: half a pixel more keeps that right.
+        render.border_min_x = (x + 0.5) / settings["width"]
+        render.border_max_x = (x + width + 0.5) / settings["width"]
+        render.border_min_y = (settings["height"] - y - height + 0.5) / settings["height"]
+        render.border_max_y = (settings["height"] - y + 0.5) / settings["height"]
 
 
 def _set_adaptive(cycles, adaptive):

@@ -7,7 +7,7 @@ import threading
 import time
 
 PROTOCOL = 5
-SPEC_VERSIONS = (5, 6)
+SPEC_VERSIONS = (5, 6, 7)
 
 
 class ProtocolError(Exception):

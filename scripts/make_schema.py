@@ -151,7 +151,7 @@ FORMS = {
 
 def form_of(words):
     """The schema for a cell of the column "value"; None for a section, whose keys have rows of their own."""
-    if words in ("section", "named sections", "section, or its source", "section, or its mode"):
+    if words in ("section", "named sections", "section, or its source", "section, or its mode", "section, or its around"):
         return None
     if words in FORMS:
         return dict(FORMS[words])

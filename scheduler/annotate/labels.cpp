@@ -53,6 +53,7 @@ Result<FrameLabels> make_labels(const FrameSpec& spec, const std::vector<std::st
                      .focal_px = spec.camera.focal_px,
                      .center_px = spec.camera.center_px,
                      .twin_exact = spec.labels.twin_exact,
+                     .target = spec.labels.target,
                      .instances = {}};
   for (std::size_t i = 0; i < spec.instances.size(); ++i) {
     const InstanceSpec& instance = spec.instances[i];

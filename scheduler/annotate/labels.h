@@ -82,6 +82,7 @@ struct FrameLabels {
   std::array<double, 2> focal_px{};     ///< of the pinhole
   std::array<double, 2> center_px{};    ///< principal point; pixel centres are whole numbers
   bool twin_exact = true;               ///< false: silhouettes do not show holes that textures cut
+  int target = 0;                       ///< id of the instance that the image is cut to; 0: none
   /// Every instance of the spec with an id, in the spec's order.
   std::vector<InstanceLabel> instances;
 };

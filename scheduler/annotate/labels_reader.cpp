@@ -260,6 +260,7 @@ Result<FrameLabels> labels_from_json(const Json& json, const std::string& what) 
                      .focal_px = {},
                      .center_px = {},
                      .twin_exact = *twin_exact,
+                     .target = 0,
                      .instances = {}};
   try {
     json.at("categories").get_to(labels.categories);
@@ -277,6 +278,15 @@ Result<FrameLabels> labels_from_json(const Json& json, const std::string& what) 
       return fail(ErrorKind::kCorrupt, "{}: the id {} appears twice", where, label->id);
     }
     labels.instances.push_back(std::move(*label));
+  }
+  if (json.contains("target")) {
+    const auto target = integer_field(json, "target", 1, kLargestImageId, what);
+    if (!target) return forward_error(target);
+    labels.target = static_cast<int>(*target);
+    if (!ids.contains(labels.target)) {
+      return fail(ErrorKind::kCorrupt, "{}: no instance has the id of the target, {}", what,
+                  labels.target);
+    }
   }
   return labels;
 }

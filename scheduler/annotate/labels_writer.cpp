@@ -63,6 +63,7 @@ void write_frame_labels(CanonicalWriter& out, const FrameLabels& labels) {
   out.list("categories", labels.categories, [&](const std::string& name) { out.text(name); });
   out.field("height", static_cast<double>(labels.height));
   out.objects("instances", labels.instances, write_instance_label);
+  if (labels.target != 0) out.field("target", static_cast<double>(labels.target));
   out.field("twin_exact", labels.twin_exact);
   out.field("version", static_cast<double>(kLabelsVersion));
   out.field("width", static_cast<double>(labels.width));

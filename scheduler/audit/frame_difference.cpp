@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "frames/campaign_files.h"
 #include "frames/frame_image.h"
+#include "frames/rendered_frame.h"
 #include "image/pass_reader.h"
 #include "image/png_file.h"
 
@@ -33,7 +34,9 @@ Result<FramePixels> read_pixels(const fs::path& folder, const Manifest* manifest
   pixels.instance_ids = std::move(*ids);
   std::error_code error;
   if (!fs::exists(folder / frame_files::kPasses, error)) return pixels;  // labels by geometry
-  PassExpectation expected{pixels.instance_ids.width, pixels.instance_ids.height};
+  const Result<PixelRect> rendered = rendered_pixels_of(folder);
+  if (!rendered) return forward_error(rendered);
+  PassExpectation expected{rendered->width, rendered->height};
   expected.depth = fs::exists(folder / frame_files::kDepth, error);
   expected.normal = fs::exists(folder / frame_files::kNormal, error);
   expected.max_instance_id = kAnyInstanceId;
@@ -134,7 +137,11 @@ Result<FrameDifference> difference_of_frames(const fs::path& expected,
       if (which.contains("index")) {
         difference.passes["index"] = difference_of(a->instance_ids, b->instance_ids);
       }
-      if (a->passes && b->passes) compare_rendered(*a, *b, which, difference);
+      if (a->passes && b->passes && alike(a->passes->combined, b->passes->combined)) {
+        compare_rendered(*a, *b, which, difference);
+      } else if (a->passes && b->passes) {
+        difference.unlike = "other parts of the image were rendered";
+      }
     }
   }
   difference.grade = grade_of(difference, which, tolerance);

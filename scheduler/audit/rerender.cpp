@@ -16,23 +16,6 @@ constexpr int kMostBefore = 8;
 /// Other kernels than Cycles takes by itself on any CPU of the last decade.
 constexpr Isa kOtherIsa = Isa::kAvx;
 
-/// Rows for the store of a campaign of these frames alone. `used` takes their files.
-Status add_rows(const std::vector<std::int64_t>& frames, const PreparedCampaign& prepared,
-                JobStore& store, UsedFiles& used) {
-  auto next = frames.begin();
-  return store.add_frames([&]() -> Result<std::optional<FrameRow>> {
-    if (next == frames.end()) return std::nullopt;
-    Result<ExpandedFrame> expanded = prepared.expander.expand(*next);
-    if (!expanded) return forward_error(expanded);
-    used.add(expanded->used);
-    FrameRow row;
-    row.frame = *next++;
-    row.scene = expanded->scene;
-    row.frame_id = std::move(expanded->id);
-    return row;
-  });
-}
-
 }  // namespace
 
 Result<MadeWith> made_with(const JobStore& store, std::int64_t frame) {
@@ -130,22 +113,13 @@ Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions o
   // Or a worker that was slow to start would have no history, and frames not their arrangement.
   setup.options.pool.begin_together = true;
   setup.cache.clear();  // what is audited is never taken from anywhere
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
-  if (Status made = make_folders(folder); !made) return forward_error(made);
-  const CampaignFiles files(folder);
-  Result<JobStore> store = JobStore::create(files.store());
-  if (!store) return forward_error(store);
   UsedFiles used;
-  if (Status added = add_rows(frames, prepared_, *store, used); !added) {
-    return forward_error(added);
-  }
-  Campaign campaign{files, std::move(*store)};
-  if (Status begun = begin_run(campaign); !begun) return forward_error(begun);
+  Result<Campaign> campaign = create_scratch_campaign(folder, frames, prepared_, used);
+  if (!campaign) return forward_error(campaign);
   std::vector<PendingFrame> pending;
   pending.reserve(frames.size());
   for (const std::int64_t frame : frames) pending.push_back({frame, 0, 0});
-  CampaignRunner runner(campaign, prepared_, used, setup, observer_);
+  CampaignRunner runner(*campaign, prepared_, used, setup, observer_);
   const Result<RunSummary> summary = runner.run_to_end(std::move(pending));
   if (!summary) return forward_error(summary);
   return campaign;

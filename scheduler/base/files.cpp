@@ -23,9 +23,11 @@ Status sync_by(int (*sync)(int), const fs::path& path) {
   return {};
 }
 
-Status write_file_and(int (*sync)(int), const fs::path& path, std::string_view bytes) {
-  const int descriptor =
-      ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
+/// `finish` gets the descriptor at the end: 0, or -1 and errno.
+template <class Finish>
+Status write_file_and(const Finish& finish, int flags, const fs::path& path,
+                      std::string_view bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | flags, 0644);
   if (descriptor < 0) return system_failure("write", path, errno);
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -37,10 +39,10 @@ Status write_file_and(int (*sync)(int), const fs::path& path, std::string_view b
     }
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  const int synced = sync(descriptor);
+  const int finished = finish(descriptor);
   const int error = errno;
   ::close(descriptor);
-  if (synced != 0) return system_failure("sync", path, error);
+  if (finished != 0) return system_failure("finish writing", path, error);
   return {};
 }
 
@@ -97,11 +99,17 @@ Status sync_path(const fs::path& path) { return sync_by(::fsync, path); }
 Status sync_filesystem(const fs::path& path) { return sync_by(::syncfs, path); }
 
 Status write_file(const fs::path& path, std::string_view bytes) {
-  return write_file_and(::fsync, path, bytes);
+  return write_file_and(::fsync, O_CREAT | O_TRUNC, path, bytes);
 }
 
 Status write_file_unsynced(const fs::path& path, std::string_view bytes) {
-  return write_file_and([](int) { return 0; }, path, bytes);
+  return write_file_and([](int) { return 0; }, O_CREAT | O_TRUNC, path, bytes);
+}
+
+Status overwrite_file_unsynced(const fs::path& path, std::string_view bytes) {
+  const auto size = static_cast<off_t>(bytes.size());
+  return write_file_and([size](int descriptor) { return ::ftruncate(descriptor, size); }, 0, path,
+                        bytes);
 }
 
 Status write_file_atomically(const fs::path& path, std::string_view bytes) {

@@ -36,6 +36,10 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes);
 /// depends on the file.
 Status write_file_unsynced(const std::filesystem::path& path, std::string_view bytes);
 
+/// The same for a file that is there, which is not emptied first: ext4 waits for the disk when a
+/// file was empty on the way, and finds room for new files slowly where many were removed.
+Status overwrite_file_unsynced(const std::filesystem::path& path, std::string_view bytes);
+
 /// Writes beside `path`, forces to disk and renames over it.
 Status write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 

@@ -146,6 +146,33 @@ Result<LockedCampaign> create_campaign(const fs::path& folder, PreparedCampaign&
   return LockedCampaign{std::move(*campaign), std::move(*lock)};
 }
 
+Result<Campaign> create_scratch_campaign(const fs::path& folder,
+                                         const std::vector<std::int64_t>& frames,
+                                         const PreparedCampaign& prepared, UsedFiles& used) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  if (Status made = make_folders(folder); !made) return forward_error(made);
+  const CampaignFiles files(folder);
+  Result<JobStore> store = JobStore::create(files.store());
+  if (!store) return forward_error(store);
+  auto next = frames.begin();
+  const Status added = store->add_frames([&]() -> Result<std::optional<FrameRow>> {
+    if (next == frames.end()) return std::nullopt;
+    Result<ExpandedFrame> expanded = prepared.expander.expand(*next);
+    if (!expanded) return forward_error(expanded);
+    used.add(expanded->used);
+    FrameRow row;
+    row.frame = *next++;
+    row.scene = expanded->scene;
+    row.frame_id = std::move(expanded->id);
+    return row;
+  });
+  if (!added) return forward_error(added);
+  Campaign campaign{files, std::move(*store)};
+  if (Status begun = begin_run(campaign); !begun) return forward_error(begun);
+  return campaign;
+}
+
 Result<Campaign> open_campaign(const fs::path& folder) {
   const CampaignFiles files(folder);
   Result<JobStore> store = JobStore::open(files.store());

@@ -36,6 +36,13 @@ Status check_new_campaign(const std::filesystem::path& folder);
 Result<LockedCampaign> create_campaign(const std::filesystem::path& folder,
                                        PreparedCampaign& prepared);
 
+/// A campaign of just these frames of another one, to be run and thrown away: without
+/// campaign.yaml, and its run has begun. `folder` becomes new. `used` takes what the frames were
+/// drawn from.
+Result<Campaign> create_scratch_campaign(const std::filesystem::path& folder,
+                                         const std::vector<std::int64_t>& frames,
+                                         const PreparedCampaign& prepared, UsedFiles& used);
+
 /// Key in the store's meta: InputStamps of the frames' identities, as JSON (input_files.h).
 inline constexpr const char* kInputsKey = "inputs";
 

@@ -9,6 +9,7 @@
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/verb.h"
+#include "plan/left_out.h"
 #include "report/frame_explanation.h"
 
 namespace seedframe {
@@ -49,6 +50,9 @@ void print_explanation(const FrameExplanation& explanation, const Campaign& camp
   const FrameSpec& spec = explanation.expanded.spec;
   fmt::print("scene      {} instances, {} materials, {} lights; Cycles seed {}\n",
              spec.instances.size(), spec.materials.size(), spec.lights.size(), spec.render.seed);
+  for (const LeftOut& each : left_out(spec)) {
+    fmt::print("left out   {}: {}\n", each.what, each.why);
+  }
   for (const AttemptRow& attempt : explanation.attempts) {
     const std::string maker = attempt.worker == kNoWorker
                                   ? "found on this machine"

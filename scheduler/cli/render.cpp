@@ -15,6 +15,7 @@
 #include "cli/run_options.h"
 #include "cli/temporary_folder.h"
 #include "cli/verb.h"
+#include "frames/rendered_frame.h"
 #include "image/exr_file.h"
 #include "image_files/image_writer.h"
 #include "quality/side_renderer.h"
@@ -48,8 +49,9 @@ Result<std::optional<ImageFormat>> format_of(const fs::path& file) {
 Status write_picture(const SideFrame& frame, const ColorManagement& color, const fs::path& file) {
   const auto format = format_of(file);
   if (!format) return forward_error(format);
-  if (!*format) return write_exr(file, frame.passes.combined, {"R", "G", "B", "A"});
-  const auto display = color.apply(frame.passes.combined, frame.spec.image);
+  const FramePasses passes = on_whole_image(frame.passes, frame.spec.render);
+  if (!*format) return write_exr(file, passes.combined, {"R", "G", "B", "A"});
+  const auto display = color.apply(passes.combined, frame.spec.image);
   if (!display) return forward_error(display);
   const auto bytes = encode_image(*display, {.format = **format});
   if (!bytes) return forward_error(bytes);

@@ -13,10 +13,13 @@
 #include "cli/choose_settings.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
+#include "cli/progress.h"
 #include "cli/run_campaign.h"
 #include "cli/run_options.h"
+#include "cli/temporary_folder.h"
 #include "cli/verb.h"
 #include "plan/frame_bytes.h"
+#include "report/forecast.h"
 #include "scene/expansion_summary.h"
 
 namespace seedframe {
@@ -29,6 +32,7 @@ struct SubmitArguments {
   std::vector<std::string> allowed;
   std::int64_t frames = 0;
   bool dry_run = false;
+  int pilots = 0;  ///< frames to be made in a dry run
   RunOptions run;
 };
 
@@ -50,6 +54,11 @@ void print_plan(const PreparedCampaign& prepared, const ExpansionSummary& summar
   fmt::print("seed {}, {} categories, {} meshes, {} images\n", settings.seed,
              settings.categories.size(), summary.meshes.size(), summary.used.images.size());
   fmt::print("{}", describe_constraints(prepared.expander, summary.constraints));
+  if (rendered && summary.rendered_px < summary.image_px) {
+    fmt::print("left out: {:.1f} % of the pixels (render.region)\n",
+               100.0 - 100.0 * static_cast<double>(summary.rendered_px) /
+                           static_cast<double>(summary.image_px));
+  }
   if (settings.quality) {
     fmt::print(
         "what each frame needs for {} of {} would be found out first, by {} small renderings "
@@ -58,8 +67,42 @@ void print_plan(const PreparedCampaign& prepared, const ExpansionSummary& summar
         settings.quality->max_error, 2 * settings.frame_count());
   }
   fmt::print("by {}\n", describe(setup));
-  fmt::print("into {}, about {} (nothing was written)\n", folder.string(),
-             bytes_text(typical_frame_bytes(settings) * static_cast<std::uint64_t>(frames)));
+  fmt::print("into {} (nothing was written)\n", folder.string());
+}
+
+/// What it would take, told by frames that are made beside.
+Result<Forecast> make_pilots(const PreparedCampaign& prepared, const RunSetup& setup,
+                             std::int64_t frames, int pilots) {
+  if (prepared.settings.quality) {
+    return fail(ErrorKind::kInput,
+                "--pilot: with a section 'quality' frames cost what is found out for each of them, "
+                "which a dry run leaves out");
+  }
+  const Result<TemporaryFolder> scratch = TemporaryFolder::make("seedframe-pilot");
+  if (!scratch) return forward_error(scratch);
+  Progress progress(std::min<std::int64_t>(pilots, frames), 0, setup.options.quiet);
+  Result<Forecast> told =
+      forecast(prepared, setup, frames, pilots, scratch->path() / "campaign", progress);
+  progress.finish();
+  return told;
+}
+
+int dry_run(const SubmitArguments& arguments, const PreparedCampaign& prepared,
+            const ExpansionSummary& summary, const RunSetup& setup, std::int64_t frames,
+            const std::filesystem::path& folder) {
+  print_plan(prepared, summary, setup, frames, folder);
+  if (arguments.pilots == 0) {
+    fmt::print(
+        "about {}; --pilot 8 would make 8 frames to tell how long they take\n",
+        bytes_text(typical_frame_bytes(prepared.settings) * static_cast<std::uint64_t>(frames)));
+    return kExitOk;
+  }
+  const Result<Forecast> told = make_pilots(prepared, setup, frames, arguments.pilots);
+  if (!told) return report(told.error());
+  fmt::print("about {} and {}, by {} frames that were made to tell ({:.3f} s each, ± {:.0f} %)\n",
+             duration_text(told->wall_s), bytes_text(told->bytes), told->pilots, told->frame_s,
+             100.0 * told->spread);
+  return kExitOk;
 }
 
 int submit(const SubmitArguments& arguments) {
@@ -83,10 +126,7 @@ int submit(const SubmitArguments& arguments) {
   if (!summary) return report(summary.error());
   if (!setup) return report(setup.error());
   print_notes(*setup);
-  if (arguments.dry_run) {
-    print_plan(*prepared, *summary, *setup, wanted, folder);
-    return kExitOk;
-  }
+  if (arguments.dry_run) return dry_run(arguments, *prepared, *summary, *setup, wanted, folder);
   if (prepared->settings.quality) {
     if (Status possible = check_new_campaign(folder); !possible) return report(possible.error());
     if (Status chosen = choose_settings(*prepared, *setup); !chosen) return report(chosen.error());
@@ -116,7 +156,14 @@ void add_submit_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("--frames", arguments->frames,
                    "render only the first N frames; 'resume' renders the rest")
       ->check(CLI::PositiveNumber);
-  verb->add_flag("--dry-run", arguments->dry_run, "show what would be done");
+  CLI::Option* dry_run = verb->add_flag("--dry-run", arguments->dry_run, "show what would be done");
+  verb->add_option(
+          "--pilot", arguments->pilots,
+          "with --dry-run: make N frames, in a folder that goes again, and tell how long all "
+          "would take")
+      ->type_name("N")
+      ->needs(dry_run)
+      ->check(CLI::Range(1, 10'000));
   add_run_options(*verb, arguments->run);
   verb->footer(
       "Example: seedframe submit configs/parts.yaml -o results/parts --set render.samples=16");

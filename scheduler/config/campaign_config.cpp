@@ -199,6 +199,7 @@ Result<CampaignConfig> read_campaign_config(const std::string& text,
   config.image = read_image(section, config.render);
   config.labels = read_labels(section, errors);
   config.quality = read_quality(section, config.render, config.labels);
+  config.patches = read_patches(section, config.render);
   if (const auto node = section.find("variables")) {
     SectionReader variables(*node, errors);
     config.campaign_variables = variables.variables("campaign");

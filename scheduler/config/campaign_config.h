@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/pixel_rect.h"
 #include "config/values.h"
 #include "spec/campaign_settings.h"
 
@@ -58,6 +59,20 @@ struct ConstraintConfig {
   NumberSource at_least;
 };
 
+/// Only a part of each image is rendered.
+struct RegionConfig {
+  bool of_objects = false;       ///< what all instances with an id span
+  std::optional<PixelRect> box;  ///< inside the image
+};
+
+/// Each frame is a picture of one object, cut out of the image and with a resolution of its own.
+struct PatchConfig {
+  int size = 32;                ///< of both sides, pixels
+  double least_visible = 0.25;  ///< share of its silhouette that an object must show
+  bool keep_shape = false;      ///< else it is stretched to fill the patch
+  Place place;
+};
+
 struct RenderConfig {
   int width = 640;
   int height = 480;
@@ -68,6 +83,7 @@ struct RenderConfig {
   double filter_width_px = 1.5;
   double clamp_indirect = 10.0;
   RenderLevers levers;
+  RegionConfig region;
   bool depth = false;
   bool normal = false;
   RenderDevice device = RenderDevice::kCpu;
@@ -213,6 +229,7 @@ struct CampaignConfig {
   ImageConfig image;
   LabelConfig labels;
   std::optional<QualityWish> quality;
+  std::optional<PatchConfig> patches;
   std::vector<VariableConfig> campaign_variables, scene_variables, frame_variables;
   std::vector<MaterialConfig> materials;
   std::vector<ObjectConfig> objects;

@@ -80,6 +80,37 @@ RenderLevers read_levers(SectionReader& render, int max_bounces) {
   return levers;
 }
 
+/// Around all objects, or a rectangle inside the image.
+RegionConfig read_region(SectionReader& render, int width, int height) {
+  RegionConfig region;
+  const auto node = render.find("region");
+  if (!node || node->is_null()) return region;  // null: --set takes back what a config says
+  const auto read_around = [&](const ConfigNode& around) {
+    region.of_objects = around.is_scalar() && around.text() == "objects";
+    if (region.of_objects) return;
+    render.errors().add(around.place(),
+                        "expected 'objects', or a rectangle by x, y, width and height, found " +
+                            around.description());
+  };
+  if (node->is_scalar()) {
+    read_around(*node);
+    return region;
+  }
+  SectionReader section(*node, render.errors());
+  if (const auto around = section.find("around")) {
+    read_around(*around);
+  } else {
+    PixelRect box;
+    box.x = static_cast<int>(section.integer("x", 0, 0, width - 1));
+    box.y = static_cast<int>(section.integer("y", 0, 0, height - 1));
+    box.width = static_cast<int>(section.integer("width", width - box.x, 1, width - box.x));
+    box.height = static_cast<int>(section.integer("height", height - box.y, 1, height - box.y));
+    region.box = box;
+  }
+  section.refuse_other_keys();
+  return region;
+}
+
 /// One of `names`, which are those of an enum in its order; absent: the first.
 template <class Enum, std::size_t N>
 Enum read_enum(SectionReader& render, const char* key, const std::array<const char*, N>& names) {
@@ -108,6 +139,7 @@ RenderConfig read_render(SectionReader& campaign, Diagnostics& errors) {
   render.filter_width_px = section.positive("filter_width_px", render.filter_width_px);
   render.clamp_indirect = read_limit(section, "clamp_indirect", render.clamp_indirect);
   render.levers = read_levers(section, render.max_bounces);
+  render.region = read_region(section, render.width, render.height);
   for (const std::string& pass : section.texts("passes")) {
     if (pass == "depth") {
       render.depth = true;
@@ -125,6 +157,29 @@ RenderConfig read_render(SectionReader& campaign, Diagnostics& errors) {
   render.persistent_data = section.flag("persistent_data", render.persistent_data);
   section.refuse_other_keys();
   return render;
+}
+
+std::optional<PatchConfig> read_patches(SectionReader& campaign, const RenderConfig& render) {
+  constexpr long long kLargestPatch = 4096;
+  const auto node = campaign.find("patches");
+  if (!node || node->is_null()) return std::nullopt;
+  SectionReader section(*node, campaign.errors());
+  PatchConfig patches;
+  patches.place = node->place();
+  patches.size = static_cast<int>(section.integer("size", patches.size, 1, kLargestPatch));
+  patches.least_visible = section.constant("least_visible", patches.least_visible);
+  if (!(patches.least_visible > 0.0 && patches.least_visible <= 1.0)) {
+    campaign.errors().add(
+        section.node().find("least_visible")->place(),
+        fmt::format("expected a share above 0 and up to 1, found {}", patches.least_visible));
+  }
+  patches.keep_shape = section.flag("keep_shape", patches.keep_shape);
+  section.refuse_other_keys();
+  if (render.region.of_objects || render.region.box) {
+    campaign.errors().add(node->place(),
+                          "a patch is a part of the image already: leave render.region out");
+  }
+  return patches;
 }
 
 }  // namespace seedframe

@@ -30,11 +30,12 @@ class Patches : public ExportFormat {
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     FrameRecord record;
     record.counts = frame.counts;
-    for (const ExportInstance& instance : frame.instances) {
-      const auto pixels = patch(frame, instance);
+    for (const ExportInstance* instance : shown(frame)) {
+      const auto pixels = patch(frame, *instance);
       if (!pixels) return forward_error(pixels);
-      record.files.push_back({path(frame, instance), encode_png(*pixels)});
+      record.files.push_back({path(frame, *instance), encode_png(*pixels)});
     }
+    at(record.counts, Count::kAnnotations) = static_cast<std::int64_t>(record.files.size());
     return record;
   }
 
@@ -49,28 +50,39 @@ class Patches : public ExportFormat {
   std::vector<std::string> differences(const ExportFrame& frame,
                                        const WrittenFrame& written) const override {
     std::vector<std::string> found;
-    for (const ExportInstance& instance : frame.instances) {
-      const std::string name = path(frame, instance);
+    const std::vector<const ExportInstance*> instances = shown(frame);
+    for (const ExportInstance* instance : instances) {
+      const std::string name = path(frame, *instance);
       const auto png = decode_png8(written.file(name), name);
       if (!png) {
         found.push_back(png.error().message);
         continue;
       }
-      const auto expected = patch(frame, instance);
+      const auto expected = patch(frame, *instance);
       if (!expected) return {expected.error().message};
       if (png->width != expected->width || png->height != expected->height ||
           png->values != expected->values) {
         found.push_back(name + " is not the object's patch");
       }
     }
-    if (written.files.size() != frame.instances.size()) {
+    if (written.files.size() != instances.size()) {
       found.push_back(
-          fmt::format("{} patches instead of {}", written.files.size(), frame.instances.size()));
+          fmt::format("{} patches instead of {}", written.files.size(), instances.size()));
     }
     return found;
   }
 
  private:
+  /// A frame that was cut to one instance is a patch of that alone.
+  static std::vector<const ExportInstance*> shown(const ExportFrame& frame) {
+    const int target = frame.loaded.labels.target;
+    std::vector<const ExportInstance*> shown;
+    for (const ExportInstance& instance : frame.instances) {
+      if (target == 0 || instance.label->id == target) shown.push_back(&instance);
+    }
+    return shown;
+  }
+
   std::string path(const ExportFrame& frame, const ExportInstance& instance) const {
     return fmt::format("{}/{}/{}_{:05}.png", frame.split,
                        folders_[static_cast<std::size_t>(instance.label->category) - 1], frame.stem,
@@ -79,10 +91,12 @@ class Patches : public ExportFormat {
 
   Result<Image<std::uint8_t>> patch(const ExportFrame& frame,
                                     const ExportInstance& instance) const {
-    const PixelRect& box = instance.box();
-    Image<std::uint8_t> rectangle =
-        cropped(*frame.loaded.image, box.x, box.y, box.width, box.height);
+    const Image<std::uint8_t>& image = *frame.loaded.image;
+    const bool is_target = instance.label->id == frame.loaded.labels.target;
+    const PixelRect box = is_target ? PixelRect{0, 0, image.width, image.height} : instance.box();
+    Image<std::uint8_t> rectangle = cropped(image, box.x, box.y, box.width, box.height);
     if (options_.patch_size == 0) return rectangle;
+    if (box.width == options_.patch_size && box.height == options_.patch_size) return rectangle;
     return resampled(rectangle, options_.patch_size, options_.patch_size);
   }
 

@@ -95,33 +95,37 @@ Result<FinishedFrame> close(const FinishTask& task, const TwinTally& tally, Fram
 
 Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorManagement& color) {
   const fs::path rendered = rendered_passes(task.attempt_folder);
-  const Result<FramePasses> passes = read_rendered_frame(task.spec, task.frame_id, rendered);
-  if (!passes) return forward_error(passes);
-  const Image<std::uint16_t>& ids = passes->instance_ids;
+  Result<FramePasses> read = read_rendered_frame(task.spec, task.frame_id, rendered);
+  if (!read) return forward_error(read);
+  const FramePasses passes = on_whole_image(std::move(*read), task.spec.render);
+  const Image<std::uint16_t>& ids = passes.instance_ids;
   const Result<Twin> twin = tracer_.trace(task.spec, task.meshes, TwinTracer::Passes::kIdsOnly);
   if (!twin) return forward_error(twin);
   const Result<TwinTally> tally = check_with_twin(task, check_, ids, *twin);
   if (!tally) return forward_error(tally);
-  const auto image = color.apply(passes->combined, task.spec.image);
+  const auto image = color.apply(passes.combined, task.spec.image);
   if (!image) return forward_error(image);
   const auto picture = encode_image(*image, encoding_);
   if (!picture) return forward_error(picture);
+
+  const Result<std::string> written = read_file(rendered);
+  if (!written) return forward_error(written);
+  const Result<std::string> stored_passes = without_metadata(*written, rendered.string());
+  if (!stored_passes) return forward_error(stored_passes);
 
   FrameWriter writer(task.attempt_folder);
   if (Status labelled = write_labels(task, categories_, ids, *twin, writer); !labelled) {
     return forward_error(labelled);
   }
   writer.write(frame_files::image(encoding_.format), *picture);
-  writer.make(frame_files::kPasses,
-              [&](const fs::path& path) { return copy_without_metadata(rendered, path); });
-  write_data_passes(passes->depth, passes->normal, writer);
+  writer.write_over(rendered, frame_files::kPasses, *stored_passes);
+  write_data_passes(passes.depth, passes.normal, writer);
   writer.manifest().image = encoding_;
-  writer.manifest().pixel_hashes = passes->pixel_hashes;
+  writer.manifest().pixel_hashes = passes.pixel_hashes;
   writer.manifest().pixel_hashes["image"] = pixel_hash(*image, "R,G,B");
   Result<FinishedFrame> finished = close(task, *tally, writer);
   if (!finished) return finished;
   std::error_code ignored;
-  fs::remove(rendered, ignored);
   fs::remove(sharp_passes(rendered), ignored);
   return finished;
 }

@@ -23,6 +23,16 @@ class FrameWriter {
     manifest_.files[name] = {bytes.size(), sha256_hex(bytes)};
   }
 
+  /// The same, in place of a file that is there under another name and goes.
+  void write_over(const std::filesystem::path& other, const char* name, const std::string& bytes) {
+    if (!status_) return;
+    std::error_code error;
+    std::filesystem::rename(other, folder_ / name, error);
+    status_ = error ? Status(system_failure("rename", other, error.value()))
+                    : overwrite_file_unsynced(folder_ / name, bytes);
+    manifest_.files[name] = {bytes.size(), sha256_hex(bytes)};
+  }
+
   /// For what `make` writes itself, given the path.
   template <class Make>
   void make(const char* name, Make make) {

@@ -2,7 +2,12 @@
 
 #include <algorithm>
 
+#include "base/files.h"
+#include "frames/campaign_files.h"
+#include "image/crop.h"
 #include "plan/pass_plan.h"
+#include "rays/ray_scene.h"
+#include "spec/frame_spec_reader.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -16,8 +21,9 @@ Result<FramePasses> read_rendered_frame(const FrameSpec& spec, const std::string
   const PassPlan plan = plan_passes(spec);
   PassExpectation expected;
   expected.frame_id = frame_id;
-  expected.width = spec.render.width;
-  expected.height = spec.render.height;
+  const PixelRect pixels = spec.render.rendered_pixels();
+  expected.width = pixels.width;
+  expected.height = pixels.height;
   expected.depth = plan.depth;
   expected.normal = plan.normal;
   for (const InstanceSpec& instance : spec.instances) {
@@ -30,6 +36,28 @@ Result<FramePasses> read_rendered_frame(const FrameSpec& spec, const std::string
   sharp->combined = std::move(passes->combined);
   sharp->pixel_hashes["combined"] = passes->pixel_hashes["combined"];
   return sharp;
+}
+
+FramePasses on_whole_image(FramePasses rendered, const RenderSettings& render) {
+  if (!render.region) return rendered;
+  const auto place = [&](auto& image, auto fill) {
+    image = placed_at(image, *render.region, render.width, render.height, fill);
+  };
+  place(rendered.combined, 0.0F);
+  place(rendered.instance_ids, std::uint16_t{0});
+  if (rendered.depth) place(*rendered.depth, kNoDepth);
+  if (rendered.normal) place(*rendered.normal, 0.0F);
+  return rendered;
+}
+
+Result<PixelRect> rendered_pixels_of(const fs::path& folder) {
+  const fs::path path = folder / frame_files::kSpec;
+  const Result<std::string> text = read_file(path);
+  if (!text) return fail(ErrorKind::kCorrupt, "{}", text.error().message);
+  const Json json = Json::parse(*text, nullptr, false);
+  const Result<FrameSpec> spec = frame_spec_from_json(json, path.string());
+  if (!spec) return fail(ErrorKind::kCorrupt, "{}", spec.error().message);
+  return spec->render.rendered_pixels();
 }
 
 }  // namespace seedframe

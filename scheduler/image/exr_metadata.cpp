@@ -8,25 +8,22 @@
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 
-#include "base/files.h"
 #include "image/exr_input.h"
 #include "image/exr_memory.h"
 
 namespace seedframe {
 
-Status copy_without_metadata(const std::filesystem::path& from, const std::filesystem::path& to) {
+Result<std::string> without_metadata(std::string_view bytes, const std::string& what) {
   const auto failed = [&](const std::string& why) {
-    return fail(ErrorKind::kRender, "cannot copy the passes {}: {}", from.string(), why);
+    return fail(ErrorKind::kRender, "cannot copy the passes {}: {}", what, why);
   };
-  const Result<std::string> bytes = read_file(from);
-  if (!bytes) return failed(bytes.error().message);
-  if (const char* fault = exr_header_fault(*bytes)) return failed(fault);
+  if (const char* fault = exr_header_fault(bytes)) return failed(fault);
   ExrMemoryOutput output;
   try {
-    ExrMemoryInput stream(*bytes, from.string());
+    ExrMemoryInput stream(bytes, what);
     Imf::MultiPartInputFile file(stream, /*numThreads=*/0, /*reconstructChunkOffsetTable=*/false);
     const Imf::Header& original = file.header(0);
-    if (const char* fault = exr_size_fault(original, bytes->size())) return failed(fault);
+    if (const char* fault = exr_size_fault(original, bytes.size())) return failed(fault);
     Imf::Header header(original.displayWindow(), original.dataWindow(), original.pixelAspectRatio(),
                        original.screenWindowCenter(), original.screenWindowWidth(),
                        original.lineOrder(), original.compression());
@@ -37,7 +34,7 @@ Status copy_without_metadata(const std::filesystem::path& from, const std::files
   } catch (const std::exception& error) {
     return failed(error.what());
   }
-  return write_file_unsynced(to, output.bytes());
+  return std::move(output).bytes();
 }
 
 }  // namespace seedframe

@@ -41,8 +41,9 @@ Result<StoredFrame> read_stored(const Campaign& campaign, const PreparedCampaign
                 frame, campaign.files.root().string());
   }
   PassExpectation expected;
-  expected.width = expanded->spec.render.width;
-  expected.height = expanded->spec.render.height;
+  const PixelRect rendered = expanded->spec.render.rendered_pixels();
+  expected.width = rendered.width;
+  expected.height = rendered.height;
   constexpr int kMostId = 32'767;
   expected.max_instance_id = kMostId;
   Result<FramePasses> passes =

@@ -56,6 +56,13 @@ void halve_resolution(FrameSpec& spec) {
   const auto half = [](int size) { return (size + 1) / 2; };
   spec.render.width = half(spec.render.width);
   spec.render.height = half(spec.render.height);
+  if (spec.render.region) {  // outwards
+    const PixelRect whole = *spec.render.region;
+    PixelRect& region = *spec.render.region;
+    region = {whole.x / 2, whole.y / 2, 0, 0};
+    region.width = half(whole.end_x()) - region.x;
+    region.height = half(whole.end_y()) - region.y;
+  }
   for (double& focal : spec.camera.focal_px) focal /= 2.0;
   // Pixel centres are whole numbers, so the picture's corner is at -1/2.
   for (double& center : spec.camera.center_px) center = (center + 0.5) / 2.0 - 0.5;

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "mesh/mesh_buffer.h"
+#include "scene/view_window.h"
 
 namespace seedframe {
 namespace {
@@ -70,6 +71,17 @@ const CompiledConstraint* ConstraintChecker::first_unmet(const FrameDraft& draft
   return nullptr;
 }
 
+std::vector<std::size_t> ConstraintChecker::seen(const FrameDraft& draft, double least_share) {
+  DraftRays rays;
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < draft.placed.size(); ++i) {
+    if (draft.placed[i].spec.category == 0) continue;
+    const PixelCounts counts = rays_of(draft, rays).count(i, kRaysForShares);
+    if (counts.visible > 0.0 && counts.visible >= least_share * counts.whole) seen.push_back(i);
+  }
+  return seen;
+}
+
 bool ConstraintChecker::is_met(const CompiledConstraint& constraint, const FrameDraft& draft,
                                DraftRays& rays, EvaluationContext& context) {
   const double least = constraint.at_least.evaluate(context);
@@ -120,9 +132,6 @@ bool ConstraintChecker::all_apart(const std::vector<const PlacedInstance*>& inst
 
 const RayScene& ConstraintChecker::rays_of(const FrameDraft& draft, DraftRays& rays) {
   if (rays) return *rays;
-  const CameraSpec& camera = draft.spec.camera;
-  const PixelCamera pixels{draft.spec.render.width, draft.spec.render.height, camera.focal_px,
-                           camera.center_px,        camera.clip_start_m,      camera.clip_end_m};
   std::vector<RayInstance> instances;
   for (const PlacedInstance& placed : draft.placed) {
     RayInstance instance;
@@ -131,7 +140,7 @@ const RayScene& ConstraintChecker::rays_of(const FrameDraft& draft, DraftRays& r
     instance.seen = !placed.spec.hidden_from.camera;
     instances.push_back(std::move(instance));
   }
-  rays = std::make_unique<RayScene>(pixels, std::move(instances));
+  rays = std::make_unique<RayScene>(pixel_camera_of(draft), std::move(instances));
   return *rays;
 }
 

@@ -27,6 +27,10 @@ class ConstraintChecker {
   const CompiledConstraint* first_unmet(const FrameDraft& draft, EvaluationContext& context,
                                         std::vector<ConstraintTally>& tallies);
 
+  /// Indices of the placed instances with a category that show at least this share of their
+  /// silhouette inside the image.
+  std::vector<std::size_t> seen(const FrameDraft& draft, double least_share);
+
  private:
   /// A draft's rays, made when the first constraint asks for them.
   using DraftRays = std::unique_ptr<RayScene>;

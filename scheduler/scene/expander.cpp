@@ -4,6 +4,7 @@
 
 #include "base/last_made.h"
 #include "config/campaign_config.h"
+#include "config/settings.h"
 #include "draws/graphs.h"
 #include "scene/camera_placer.h"
 #include "scene/compiled_config.h"
@@ -14,7 +15,7 @@
 #include "scene/offered_assets.h"
 #include "scene/offered_images.h"
 #include "scene/placement.h"
-#include "scene/settings.h"
+#include "scene/view_window.h"
 
 namespace seedframe {
 
@@ -67,6 +68,7 @@ class SceneExpander::Program {
   mutable LastMade<std::int64_t, std::vector<GivenValues>> graph_;  ///< by scene
   mutable GroundMaker ground_;
   std::unique_ptr<ConstraintChecker> checker_;
+  std::optional<PatchWindow> patches_;
 };
 
 Status SceneExpander::Program::compile() {
@@ -75,11 +77,14 @@ Status SceneExpander::Program::compile() {
   for (const CompiledObject& object : compiled_.objects) placer_.check_names(object, errors);
   if (!errors.empty()) return tl::unexpected(errors.as_error());
   checker_ = std::make_unique<ConstraintChecker>(compiled_.constraints);
+  if (config_.patches) patches_.emplace(*config_.patches, config_.seed);
   return {};
 }
 
 RenderSettings SceneExpander::Program::render_settings(const EvaluationContext& context) const {
   RenderSettings render = settings_.render;
+  render.width = config_.render.width;  // of the whole image, if patches are cut out of it
+  render.height = config_.render.height;
   // Cycles' seed is a signed 32-bit integer.
   render.seed =
       static_cast<std::uint32_t>(render_seed_.bits(context.position(Level::kFrame)) >> 33);
@@ -202,6 +207,7 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
   if (!begun) return forward_error(begun);
   EvaluationContext& context = *begun;
   const CompiledConstraint* unmet = nullptr;
+  std::vector<std::size_t> seen;  ///< may be cut out as patches
   FrameDraft draft;
   const auto most = static_cast<std::uint32_t>(config_.max_attempts);
   for (; context.frame_attempt < most; ++context.frame_attempt) {
@@ -213,7 +219,10 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
     if (context.error) return tl::unexpected(*context.error);
     unmet = checker_->first_unmet(draft, context, result.constraints);
     if (context.error) return tl::unexpected(*context.error);
-    if (unmet == nullptr) break;
+    if (unmet != nullptr) continue;
+    if (!patches_) break;
+    seen = checker_->seen(draft, config_.patches->least_visible);
+    if (!seen.empty()) break;
   }
   if (unmet != nullptr) {
     context.report(unmet->place,
@@ -224,6 +233,16 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
                                most, unmet->name));
     return tl::unexpected(*context.error);
   }
+  if (patches_ && seen.empty()) {
+    context.report(
+        config_.patches->place,
+        fmt::format("no object of this frame shows {} of its silhouette or more, in any of "
+                    "{} attempts: lower least_visible, or let the camera see objects",
+                    config_.patches->least_visible, most));
+    return tl::unexpected(*context.error);
+  }
+  if (patches_) patches_->cut(draft, patches_->choose(draft, seen, context));
+  if (config_.render.region.of_objects) draft.spec.render.region = region_of_objects(draft);
   placer_.choose_levels(draft, context);
   if (context.error) return tl::unexpected(*context.error);
   result.attempts = context.frame_attempt + 1;

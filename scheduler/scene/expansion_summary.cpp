@@ -11,6 +11,9 @@ void ExpansionSummary::add(const ExpandedFrame& frame) {
   least_instances = std::min(least_instances, frame.spec.instances.size());
   most_instances = std::max(most_instances, frame.spec.instances.size());
   attempts += frame.attempts;
+  const RenderSettings& render = frame.spec.render;
+  image_px += std::int64_t{render.width} * render.height;
+  rendered_px += render.rendered_pixels().area();
   used.add(frame.used);
   for (const InstanceSpec& instance : frame.spec.instances) {
     if (!instance.asset.empty()) meshes.insert(instance.mesh);

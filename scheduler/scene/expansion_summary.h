@@ -18,6 +18,8 @@ struct ExpansionSummary {
   std::size_t least_instances = SIZE_MAX;
   std::size_t most_instances = 0;
   std::int64_t attempts = 0;  ///< to meet the constraints
+  std::int64_t image_px = 0;
+  std::int64_t rendered_px = 0;  ///< of them; fewer where frames have a region
   UsedFiles used;
   std::set<std::string> meshes;              ///< SHA-256, without grounds
   std::vector<ConstraintTally> constraints;  ///< in the order of the config

@@ -4,9 +4,9 @@
 #include "config/campaign_config.h"
 #include "config/config_node.h"
 #include "config/config_text.h"
+#include "config/settings.h"
 #include "draws/graphs.h"
 #include "scene/material_library.h"
-#include "scene/settings.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;

@@ -55,6 +55,7 @@ void write_instance(CanonicalWriter& out, const InstanceSpec& instance) {
 void write_labels(CanonicalWriter& out, const LabelSettings& labels) {
   const bool twin = labels.source == LabelSource::kTwin;
   out.field("source", std::string_view(twin ? "geometry" : "render"));
+  if (labels.target != 0) out.field("target", static_cast<double>(labels.target));
   out.field("twin_exact", labels.twin_exact);
 }
 
@@ -124,6 +125,10 @@ void write_render(CanonicalWriter& out, const RenderSettings& render) {
   if (render.levers != RenderLevers{}) out.object("levers", render.levers, write_levers);
   out.field("max_bounces", static_cast<double>(render.max_bounces));
   out.field("normal", render.normal);
+  if (render.region) {
+    const PixelRect& region = *render.region;
+    out.numbers("region", std::array{region.x, region.y, region.width, region.height});
+  }
   out.field("samples", static_cast<double>(render.samples));
   out.field("seed", static_cast<double>(render.seed));
   out.field("width", static_cast<double>(render.width));
@@ -139,6 +144,12 @@ void write_world(CanonicalWriter& out, const WorldSpec& world) {
   out.field("strength", world.strength);
 }
 
+int version_of(const FrameSpec& spec) {
+  constexpr int kLevers = 6;
+  if (spec.render.region || spec.labels.target != 0) return kFrameSpecVersion;
+  return spec.render.levers != RenderLevers{} ? kLevers : kOldestFrameSpecVersion;
+}
+
 void write_frame_spec(CanonicalWriter& out, const FrameSpec& spec) {
   out.object("camera", spec.camera, write_camera);
   out.object("image", spec.image, write_image);
@@ -147,9 +158,7 @@ void write_frame_spec(CanonicalWriter& out, const FrameSpec& spec) {
   out.objects("lights", spec.lights, write_light);
   out.objects("materials", spec.materials, write_material);
   out.object("render", spec.render, write_render);
-  const bool has_levers = spec.render.levers != RenderLevers{};
-  out.field("version",
-            static_cast<double>(has_levers ? kFrameSpecVersion : kOldestFrameSpecVersion));
+  out.field("version", static_cast<double>(version_of(spec)));
   out.object("world", spec.world, write_world);
 }
 

@@ -12,13 +12,14 @@
 
 #include "base/canonical_json.h"
 #include "base/error.h"
+#include "base/pixel_rect.h"
 #include "spec/image_settings.h"
 #include "spec/keypoint.h"
 
 namespace seedframe {
 
-/// The newest; a frame that needs nothing of it is of the version before, and keeps its id.
-inline constexpr int kFrameSpecVersion = 6;
+/// The newest. A frame is of the oldest version that has all that it needs, and so keeps its id.
+inline constexpr int kFrameSpecVersion = 7;
 inline constexpr int kOldestFrameSpecVersion = 5;
 
 /// Linear RGB, Rec.709 primaries.
@@ -74,6 +75,12 @@ struct RenderSettings {
   AdaptiveSampling adaptive;
   Denoise denoise = Denoise::kOff;
   RenderLevers levers;
+  /// Only these pixels of the image are rendered: its others are black, of no instance, and
+  /// infinitely far. Since version 7; none: all.
+  std::optional<PixelRect> region;
+
+  /// What the passes of a worker have: the region, or the whole image.
+  PixelRect rendered_pixels() const { return region.value_or(PixelRect{0, 0, width, height}); }
 };
 
 /// A camera at the origin, looking down -z, y up.
@@ -159,6 +166,9 @@ struct LabelSettings {
   /// Whether the twin sees exactly what is rendered. Not with cut-out textures, whose holes only
   /// the renderer knows: there the index pass rules, and is not compared.
   bool twin_exact = true;
+  /// Id of the instance that the frame is a picture of, which its image is cut to; 0: of the scene.
+  /// Since version 7.
+  int target = 0;
 };
 
 struct FrameSpec {

@@ -48,6 +48,11 @@ RenderLevers levers_from_json(const Json& json) {
   return levers;
 }
 
+PixelRect region_from_json(const Json& numbers) {
+  return {integer_of<int>(numbers.at(0)), integer_of<int>(numbers.at(1)),
+          integer_of<int>(numbers.at(2)), integer_of<int>(numbers.at(3))};
+}
+
 RenderSettings render_from_json(const Json& json) {
   RenderSettings render;
   render.width = integer_of<int>(json.at("width"));
@@ -65,6 +70,7 @@ RenderSettings render_from_json(const Json& json) {
   json.at("depth").get_to(render.depth);
   json.at("normal").get_to(render.normal);
   if (json.contains("levers")) render.levers = levers_from_json(json.at("levers"));
+  if (json.contains("region")) render.region = region_from_json(json.at("region"));
   return render;
 }
 
@@ -156,6 +162,7 @@ FrameSpec read(const Json& json) {
   image.at("gamma").get_to(spec.image.gamma);
   const Json& labels = json.at("labels");
   labels.at("twin_exact").get_to(spec.labels.twin_exact);
+  if (labels.contains("target")) spec.labels.target = integer_of<int>(labels.at("target"));
   if (labels.at("source").get<std::string>() == "geometry") {
     spec.labels.source = LabelSource::kTwin;
   }

@@ -5,6 +5,7 @@
 #include <new>
 #include <unordered_map>
 
+#include "image/crop.h"
 #include "mesh/mesh_buffer.h"
 
 namespace seedframe {
@@ -94,6 +95,12 @@ std::vector<Silhouette> Twin::silhouettes(const Image<std::uint16_t>& visible_id
   return silhouettes;
 }
 
+void Twin::keep_only(const PixelRect& region) {
+  fill_outside(instance_ids, region, std::uint16_t{0});
+  if (depth) fill_outside(*depth, region, kNoDepth);
+  if (normal) fill_outside(*normal, region, 0.0F);
+}
+
 Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers, Passes passes) {
   try {
     std::vector<RayInstance> instances;
@@ -114,7 +121,9 @@ Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers
                                   .portable_depth = asked && spec.render.depth,
                                   .normals = asked && spec.render.normal,
                                   .threads = threads_});
-    return Twin(std::move(scene), std::move(image), std::move(ids), asked && spec.render.depth);
+    Twin twin(std::move(scene), std::move(image), std::move(ids), asked && spec.render.depth);
+    if (spec.render.region) twin.keep_only(*spec.render.region);
+    return twin;
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::kExhausted,
                 "there is not enough memory to trace a frame of {} instances, {}x{} pixels",

@@ -21,7 +21,8 @@ namespace seedframe {
 /// One frame as rays through its pixels' centres see it.
 class Twin {
  public:
-  Image<std::uint16_t> instance_ids;   ///< 0 is background
+  /// 0 is background, and what is outside of the spec's region.
+  Image<std::uint16_t> instance_ids;
   std::optional<Image<float>> depth;   ///< planar, metres; kNoDepth where there is nothing
   std::optional<Image<float>> normal;  ///< x, y, z in the camera's frame; 0 where there is nothing
 
@@ -46,6 +47,8 @@ class Twin {
  private:
   friend class TwinTracer;
   Twin(RayScene scene, RayImage image, std::vector<int> ids, bool with_depth);
+  /// Nothing is seen in the pixels outside.
+  void keep_only(const PixelRect& region);
 
   RayScene scene_;
   RayImage image_;

@@ -49,6 +49,16 @@ TEST_F(FilesTest, ManyFilesCanWaitForTheDiskTogether) {
   EXPECT_FALSE(write_file_unsynced("/dev/full", "x"));
 }
 
+TEST_F(FilesTest, AFileIsOverwrittenWhateverItsLength) {
+  EXPECT_FALSE(overwrite_file_unsynced(folder_ / "none", "x")) << "nothing there to overwrite";
+  ASSERT_TRUE(write_file(folder_ / "f", "a long text"));
+  ASSERT_TRUE(overwrite_file_unsynced(folder_ / "f", "short"));
+  EXPECT_EQ(*read_file(folder_ / "f"), "short");
+  ASSERT_TRUE(overwrite_file_unsynced(folder_ / "f", "much longer than that"));
+  EXPECT_EQ(*read_file(folder_ / "f"), "much longer than that");
+  EXPECT_FALSE(overwrite_file_unsynced("/dev/full", "x"));
+}
+
 TEST_F(FilesTest, ErrorsNameTheFileAndTheReason) {
   const auto missing = read_file(folder_ / "none");
   ASSERT_FALSE(missing);

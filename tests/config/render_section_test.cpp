@@ -91,5 +91,43 @@ TEST(RenderSection, TheDeviceIsTheCpuUnlessSaidOtherwise) {
               HasSubstr("portable pins kernels of the CPU, and render.device is cuda"));
 }
 
+TEST(RenderSection, ARegionIsTheObjectsOrARectangleOfTheImage) {
+  EXPECT_EQ(read_rendering("samples: 9")->render.region.box, std::nullopt);
+  EXPECT_TRUE(read_rendering("region: objects")->render.region.of_objects);
+  EXPECT_FALSE(read_rendering("region: null")->render.region.of_objects);
+  const auto config =
+      read_rendering("width: 64, height: 48, region: {x: 60, y: 0, width: 4, height: 48}");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->render.region.box, (PixelRect{60, 0, 4, 48}));
+  EXPECT_THAT(refusal_of_rendering("region: object"),
+              HasSubstr("render.region: expected 'objects', or a rectangle"));
+  EXPECT_TRUE(read_rendering("region: {around: objects}")->render.region.of_objects);
+  EXPECT_EQ(read_rendering("width: 64, height: 48, region: {x: 10}")->render.region.box,
+            (PixelRect{10, 0, 54, 48}))
+      << "to the edge";
+  EXPECT_THAT(refusal_of_rendering("region: {around: objects, x: 3}"),
+              HasSubstr("render.region.x"));
+  EXPECT_THAT(refusal_of_rendering("width: 64, region: {x: 60, y: 0, width: 5, height: 8}"),
+              HasSubstr("render.region.width"));
+}
+
+TEST(RenderSection, PatchesAreOfOneSize) {
+  const auto read = [](const std::string& sections) {
+    return read_campaign_config("seedframe: 1\ncamera: {distance_m: 1}\n" + sections, "p.yaml");
+  };
+  EXPECT_EQ(read("")->patches, std::nullopt);
+  EXPECT_EQ(read("patches: null")->patches, std::nullopt);
+  const auto config = read("patches: {size: 48, least_visible: 0.5, keep_shape: true}");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->patches->size, 48);
+  EXPECT_EQ(config->patches->least_visible, 0.5);
+  EXPECT_TRUE(config->patches->keep_shape);
+  EXPECT_THAT(message_of(read("patches: {size: 0}")), HasSubstr("patches.size"));
+  EXPECT_THAT(message_of(read("patches: {least_visible: 0}")),
+              HasSubstr("expected a share above 0 and up to 1, found 0"));
+  EXPECT_THAT(message_of(read("render: {region: objects}\npatches: {size: 32}")),
+              HasSubstr("a patch is a part of the image already"));
+}
+
 }  // namespace
 }  // namespace seedframe

@@ -181,6 +181,10 @@ def draw(spec, fault=None, dependencies=()):
         index[height // 2, width // 2] = 32767
     if fault == "fractional_id":
         index[height // 2, width // 2] = 0.5
+    if "region" in render:
+        x, y, width, height = render["region"]
+        combined, index, depth, normal = (
+            layer[y:y + height, x:x + width] for layer in (combined, index, depth, normal))
     layers = [(f"Combined.{c}", combined[..., i].astype("<f2")) for i, c in enumerate("RGBA")]
     layers.append(("IndexOB.X", index.astype("<f4")))
     if render["depth"]:

@@ -222,6 +222,11 @@ TEST(SceneExpander, AFrameIsOfTheNewVersionOnlyIfItNeedsIt) {
   FrameSpec spec = compile(kBase)->expand(4)->spec;
   EXPECT_EQ(to_json(spec)["version"], kOldestFrameSpecVersion);
   spec.render.levers.filter_glossy = 1.0;
+  EXPECT_EQ(to_json(spec)["version"], 6);
+  spec.render.region = PixelRect{0, 0, 8, 8};
+  EXPECT_EQ(to_json(spec)["version"], kFrameSpecVersion);
+  spec.render = {};
+  spec.labels.target = 1;
   EXPECT_EQ(to_json(spec)["version"], kFrameSpecVersion);
 }
 
@@ -243,6 +248,8 @@ TEST(SceneExpander, FrameSpecsSurviveTheirJson) {
   all.render.adaptive = {0.05, 8};
   all.render.denoise = Denoise::kOidnFast;
   all.render.levers = {{1, 2, 3, 0}, 0.01, 8.0, 0.5, 512, true};
+  all.render.region = PixelRect{3, 5, 20, 10};
+  all.labels.target = 2;
   const auto all_read = frame_spec_from_json(to_json(all), "t");
   ASSERT_TRUE(all_read) << all_read.error().message;
   EXPECT_EQ(all_read->render.adaptive, all.render.adaptive);

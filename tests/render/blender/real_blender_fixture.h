@@ -136,7 +136,7 @@ class RealBlender : public testing::Test, public RenderClient {
   /// One white ball of radius 1 at 4 m, lit evenly by the world alone.
   FrameSpec ball() const {
     FrameSpec spec;
-    spec.render = {48, 36, 4, 1, 2, 1.5, 0.0, true, false, {}, Denoise::kOff, {}};
+    spec.render = {48, 36, 4, 1, 2, 1.5, 0.0, true, false, {}, Denoise::kOff, {}, {}};
     spec.camera = {{60.0, 60.0}, {23.5, 17.5}, 0.01, 100.0};
     spec.world.color = {1, 1, 1};
     spec.world.strength = 1.0;
@@ -200,12 +200,13 @@ class RealBlender : public testing::Test, public RenderClient {
   void started(const FrameJob&, int) override {}
   void rendered(const FrameJob& job, const RenderTimings&, int) override {
     const RenderSettings& settings = specs.at(job.frame).render;
-    auto read = read_passes(folder / "passes # 100%.exr", {settings.width, settings.height,
-                                                           settings.depth, settings.normal, 32767});
+    const PixelRect size = settings.rendered_pixels();
+    auto read = read_passes(folder / "passes # 100%.exr",
+                            {size.width, size.height, settings.depth, settings.normal, 32767, {}});
     const std::filesystem::path sharp_file = folder / "passes # 100%.exr.sharp";
     if (std::filesystem::exists(sharp_file)) {
       auto in_focus = read_passes(
-          sharp_file, {settings.width, settings.height, settings.depth, settings.normal, 32767});
+          sharp_file, {size.width, size.height, settings.depth, settings.normal, 32767, {}});
       if (in_focus) sharp[job.frame] = std::move(*in_focus);
       std::filesystem::remove(sharp_file);
     }

@@ -1,4 +1,4 @@
-#include "scene/settings.h"
+#include "config/settings.h"
 
 namespace seedframe {
 
@@ -18,6 +18,7 @@ CampaignSettings settings_of(const CampaignConfig& config) {
   settings.render.filter_width_px = config.render.filter_width_px;
   settings.render.clamp_indirect = config.render.clamp_indirect;
   settings.render.levers = config.render.levers;
+  settings.render.region = config.render.region.box;
   settings.render.depth = config.render.depth;
   settings.render.normal = config.render.normal;
   settings.device = config.render.device;
@@ -30,6 +31,7 @@ CampaignSettings settings_of(const CampaignConfig& config) {
   settings.labels = config.labels.source;
   settings.twin_check = config.labels.check;
   settings.quality = config.quality;
+  if (config.patches) settings.render.width = settings.render.height = config.patches->size;
   return settings;
 }
 
