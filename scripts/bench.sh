@@ -2,18 +2,35 @@
 # The benchmarks, into results/: how fast configs are expanded, what the twin costs and where it agrees with Cycles, what submit costs above
 # a bare loop in Blender, a worker's memory over 1,000 frames, how fast annotations are written, what a large store costs, how fast an audit reads,
 # how long the program takes to start, how many frames an hour all of it makes beside BlenderProc, what a second of rendering buys,
-# and whether a stated error is kept. Takes about two hours
+# whether a stated error is kept, what pictures of single objects cost, and how costs grow with a scene. Takes about two and a half hours
 # on two idle cores; on a busy machine longer, and then it measures the company.
 #
 #   scripts/bench.sh               all
-#   scripts/bench.sh NAME…         of error, quality, expansion, twin, frame, stability, overhead, memory, export, store, audit, startup, determinism, throughput
+#   scripts/bench.sh NAME…         of error, quality, patches, scaling, expansion, twin, frame, stability, overhead, memory, export, store, audit, startup,
+#                                  determinism, throughput
+#   scripts/bench.sh quick         most of them, cut down to ten minutes in all, into build/quick/: does a change show?
 set -eu
 cd "$(dirname "$0")/.."
 export SEEDFRAME_CACHE=off  # what is rendered here is rendered
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
 ninja --quiet -C build/release seedframe bench_expansion bench_twin bench_frame bench_export bench_store stability
 mkdir -p results/bench results/stability results/reliability results/determinism
-[ $# -gt 0 ] || set -- error quality expansion twin frame stability overhead memory export store audit startup determinism throughput
+if [ "${1:-}" = quick ]; then
+  quick=build/quick
+  rm -rf $quick && mkdir -p $quick
+  failed=0
+  tests/bench/twin.py --rounds 1 --report $quick/twin.md || failed=1
+  tests/bench/frame.py --rounds 1 --report $quick/frame.md || failed=1
+  tests/bench/startup.py --report $quick/startup.md || failed=1
+  tests/bench/overhead.py --case small --pairs 2 --report $quick/overhead.md || failed=1
+  tests/bench/worker_memory.py --frames 60 --report $quick/memory.md || failed=1
+  tests/bench/throughput.py --only scheduler --scheduler-frames 500 --rounds 1 --report $quick/throughput.md || failed=1
+  tests/bench/patches.py --config configs/parts.yaml --frames 6 --samples 4 --rounds 1 --report $quick/patches.md || failed=1
+  tests/bench/scaling.py --axis objects --axis pixels --axis workers --report $quick/scaling || failed=1
+  build/release/seedframe bench error configs/parts.yaml -o $quick/error --width 96 --frames 1 --budget 60s || failed=1
+  exit $failed
+fi
+[ $# -gt 0 ] || set -- error quality patches scaling expansion twin frame stability overhead memory export store audit startup determinism throughput
 failed=0
 for name in "$@"; do
   case $name in
@@ -35,6 +52,8 @@ for name in "$@"; do
           --budget 14min --blender $blender || failed=1
       done
       ;;
+    patches) tests/bench/patches.py --report results/bench/patches.md ;;
+    scaling) tests/bench/scaling.py --largest-mesh 10000000 --report results/scaling ;;
     quality) tests/bench/quality.py --report results/quality/quality.md ;;
     startup) tests/bench/startup.py --report results/bench/startup.md ;;
     throughput) tests/bench/throughput.py --report results/bench/throughput.md ;;

@@ -70,6 +70,16 @@ Status write_labels(const FinishTask& task, const std::vector<std::string>& cate
   return {};
 }
 
+/// What the worker wrote becomes the frame's own file, without what differs from run to run.
+Status keep_passes(const fs::path& rendered, FrameWriter& writer) {
+  const Result<std::string> bytes = read_file(rendered);
+  if (!bytes) return forward_error(bytes);
+  const Result<std::string> kept = without_metadata(*bytes, rendered.string());
+  if (!kept) return forward_error(kept);
+  writer.write_over(rendered, frame_files::kPasses, *kept);
+  return writer.status();
+}
+
 void write_data_passes(const std::optional<Image<float>>& depth,
                        const std::optional<Image<float>>& normal, FrameWriter& writer) {
   if (depth) {
@@ -108,17 +118,12 @@ Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorM
   const auto picture = encode_image(*image, encoding_);
   if (!picture) return forward_error(picture);
 
-  const Result<std::string> written = read_file(rendered);
-  if (!written) return forward_error(written);
-  const Result<std::string> stored_passes = without_metadata(*written, rendered.string());
-  if (!stored_passes) return forward_error(stored_passes);
-
   FrameWriter writer(task.attempt_folder);
   if (Status labelled = write_labels(task, categories_, ids, *twin, writer); !labelled) {
     return forward_error(labelled);
   }
   writer.write(frame_files::image(encoding_.format), *picture);
-  writer.write_over(rendered, frame_files::kPasses, *stored_passes);
+  if (Status kept = keep_passes(rendered, writer); !kept) return forward_error(kept);
   write_data_passes(passes.depth, passes.normal, writer);
   writer.manifest().image = encoding_;
   writer.manifest().pixel_hashes = passes.pixel_hashes;

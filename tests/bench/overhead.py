@@ -295,8 +295,12 @@ def report(options, measured):
 
 
 def version_of(program):
-    return subprocess.run([str(program), "--version"], capture_output=True, text=True,
-                          check=True).stdout.splitlines()[0].strip()
+    """Of a program, or of a Blender that is a module of a Python ("python:VENV")."""
+    command = [str(program), "--version"]
+    if str(program).startswith("python:"):
+        python = pathlib.Path(str(program).removeprefix("python:")) / "bin" / "python"
+        command = [str(python), "-I", "-B", "-c", "import bpy; print('Blender', bpy.app.version_string)"]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()[0].strip()
 
 
 if __name__ == "__main__":

@@ -240,7 +240,7 @@ def short(number):
 def report(options, costs):
     lines = ["# How costs grow", "",
              "Made by `scripts/bench.sh scaling`; `tests/bench/scaling.py` says how. Milliseconds of a frame, the mean of "
-             f"{FRAMES - 1} after a worker's first, Blender {version_of(options.blender)}, {os.cpu_count()} cores, one worker with "
+             f"{FRAMES - 1} after a worker's first, {version_of(options.blender)}, {os.cpu_count()} cores, one worker with "
              "two threads unless said otherwise. *Growth*: the exponent from the point before; 1 is linear.", "",
              "![milliseconds of a frame against each](scaling.svg)", ""]
     unlike = {"workers": "40 frames of 128 × 128; one thread each", "lights": "4 samples", "pixels": "25 objects",
