@@ -2,11 +2,11 @@
 # The benchmarks, into results/: how fast configs are expanded, what the twin costs and where it agrees with Cycles, what submit costs above
 # a bare loop in Blender, a worker's memory over 1,000 frames, how fast annotations are written, what a large store costs, how fast an audit reads,
 # how long the program takes to start, how many frames an hour all of it makes beside BlenderProc, what a second of rendering buys,
-# whether a stated error is kept, what pictures of single objects cost, and how costs grow with a scene. Takes about two and a half hours
+# whether a stated error is kept, what pictures of single objects cost, how costs grow with a scene, and whether forecasts come true. Takes about two and a half hours
 # on two idle cores; on a busy machine longer, and then it measures the company.
 #
 #   scripts/bench.sh               all
-#   scripts/bench.sh NAME…         of error, quality, patches, scaling, expansion, twin, frame, stability, overhead, memory, export, store, audit, startup,
+#   scripts/bench.sh NAME…         of error, quality, patches, scaling, forecast, expansion, twin, frame, stability, overhead, memory, export, store, audit, startup,
 #                                  determinism, throughput
 #   scripts/bench.sh quick         most of them, cut down to ten minutes in all, into build/quick/: does a change show?
 set -eu
@@ -30,7 +30,7 @@ if [ "${1:-}" = quick ]; then
   build/release/seedframe bench error configs/parts.yaml -o $quick/error --width 96 --frames 1 --budget 60s || failed=1
   exit $failed
 fi
-[ $# -gt 0 ] || set -- error quality patches scaling expansion twin frame stability overhead memory export store audit startup determinism throughput
+[ $# -gt 0 ] || set -- error quality patches scaling forecast expansion twin frame stability overhead memory export store audit startup determinism throughput
 failed=0
 for name in "$@"; do
   case $name in
@@ -53,6 +53,7 @@ for name in "$@"; do
       done
       ;;
     patches) tests/bench/patches.py --report results/bench/patches.md ;;
+    forecast) tests/bench/forecast.py --report results/bench/forecast.md ;;
     scaling) tests/bench/scaling.py --largest-mesh 10000000 --report results/scaling ;;
     quality) tests/bench/quality.py --report results/quality/quality.md ;;
     startup) tests/bench/startup.py --report results/bench/startup.md ;;

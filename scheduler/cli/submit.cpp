@@ -1,5 +1,6 @@
 // seedframe submit: a config to a rendered campaign.
 
+#include <chrono>
 #include <future>
 #include <memory>
 
@@ -87,10 +88,9 @@ Result<Forecast> make_pilots(const PreparedCampaign& prepared, const RunSetup& s
   return told;
 }
 
-int dry_run(const SubmitArguments& arguments, const PreparedCampaign& prepared,
-            const ExpansionSummary& summary, const RunSetup& setup, std::int64_t frames,
-            const std::filesystem::path& folder) {
-  print_plan(prepared, summary, setup, frames, folder);
+/// `prepared_s`: seconds since the command began, which submitting would take too.
+int tell_costs(const SubmitArguments& arguments, const PreparedCampaign& prepared,
+               const RunSetup& setup, std::int64_t frames, double prepared_s) {
   if (arguments.pilots == 0) {
     fmt::print(
         "about {}; --pilot 8 would make 8 frames to tell how long they take\n",
@@ -100,12 +100,13 @@ int dry_run(const SubmitArguments& arguments, const PreparedCampaign& prepared,
   const Result<Forecast> told = make_pilots(prepared, setup, frames, arguments.pilots);
   if (!told) return report(told.error());
   fmt::print("about {} and {}, by {} frames that were made to tell ({:.3f} s each, ± {:.0f} %)\n",
-             duration_text(told->wall_s), bytes_text(told->bytes), told->pilots, told->frame_s,
-             100.0 * told->spread);
+             duration_text(prepared_s + told->wall_s), bytes_text(told->bytes), told->pilots,
+             told->frame_s, 100.0 * told->spread);
   return kExitOk;
 }
 
 int submit(const SubmitArguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
   Result<PreparedCampaign> prepared = prepare_submission(arguments);
   if (!prepared) return report(prepared.error());
   const std::filesystem::path folder =
@@ -126,7 +127,11 @@ int submit(const SubmitArguments& arguments) {
   if (!summary) return report(summary.error());
   if (!setup) return report(setup.error());
   print_notes(*setup);
-  if (arguments.dry_run) return dry_run(arguments, *prepared, *summary, *setup, wanted, folder);
+  if (arguments.dry_run) {
+    print_plan(*prepared, *summary, *setup, wanted, folder);
+    const std::chrono::duration<double> prepared_s = std::chrono::steady_clock::now() - begin;
+    return tell_costs(arguments, *prepared, *setup, wanted, prepared_s.count());
+  }
   if (prepared->settings.quality) {
     if (Status possible = check_new_campaign(folder); !possible) return report(possible.error());
     if (Status chosen = choose_settings(*prepared, *setup); !chosen) return report(chosen.error());
