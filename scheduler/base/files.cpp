@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace seedframe {
@@ -107,6 +108,10 @@ Status write_file_unsynced(const fs::path& path, std::string_view bytes) {
 }
 
 Status overwrite_file_unsynced(const fs::path& path, std::string_view bytes) {
+  struct stat there {};
+  if (::lstat(path.c_str(), &there) == 0 && there.st_nlink > 1) {
+    return system_failure("overwrite", path, EMLINK);
+  }
   const auto size = static_cast<off_t>(bytes.size());
   return write_file_and([size](int descriptor) { return ::ftruncate(descriptor, size); }, 0, path,
                         bytes);

@@ -37,7 +37,8 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes);
 Status write_file_unsynced(const std::filesystem::path& path, std::string_view bytes);
 
 /// The same for a file that is there, which is not emptied first: ext4 waits for the disk when a
-/// file was empty on the way, and finds room for new files slowly where many were removed.
+/// file was empty on the way, and finds room for new files slowly where many were removed. An error
+/// if the file has other names, under which it would change too.
 Status overwrite_file_unsynced(const std::filesystem::path& path, std::string_view bytes);
 
 /// Writes beside `path`, forces to disk and renames over it.

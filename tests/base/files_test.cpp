@@ -57,6 +57,9 @@ TEST_F(FilesTest, AFileIsOverwrittenWhateverItsLength) {
   ASSERT_TRUE(overwrite_file_unsynced(folder_ / "f", "much longer than that"));
   EXPECT_EQ(*read_file(folder_ / "f"), "much longer than that");
   EXPECT_FALSE(overwrite_file_unsynced("/dev/full", "x"));
+  fs::create_hard_link(folder_ / "f", folder_ / "g");
+  EXPECT_FALSE(overwrite_file_unsynced(folder_ / "f", "x"));
+  EXPECT_EQ(*read_file(folder_ / "g"), "much longer than that");
 }
 
 TEST_F(FilesTest, ErrorsNameTheFileAndTheReason) {

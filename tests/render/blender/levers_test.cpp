@@ -11,18 +11,10 @@ namespace {
 
 class RealBlenderLevers : public RealBlender {
  protected:
-  /// A BMP of 256 × 256 pixels, black and white by turns.
+  /// Pixels black and white by turns.
   std::string add_chequers() {
     constexpr std::uint32_t kSide = 256;
-    std::string bytes = "BM";
-    const auto put = [&bytes](std::uint32_t value, int count) {
-      for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i));
-    };
-    put(54 + 3 * kSide * kSide, 4), put(0, 4), put(54, 4);
-    put(40, 4), put(kSide, 4), put(kSide, 4), put(1, 2), put(24, 2);
-    for (int i = 0; i < 6; ++i) put(0, 4);
-    for (std::uint32_t i = 0; i < kSide * kSide; ++i) put((i + i / kSide) % 2 * 0xffffff, 3);
-    return add_texture_file(bytes);
+    return add_picture(kSide, [](std::uint32_t i) { return (i + i / kSide) % 2 * 0xffffff; });
   }
 
   /// Balls of four materials that light and mirror each other, under a lamp.

@@ -101,18 +101,22 @@ class RealBlender : public testing::Test, public RenderClient {
     EXPECT_TRUE(write_file(meshes[name], bytes));
     return name;
   }
-  /// A BMP of one colour.
-  std::string add_texture(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
-    constexpr std::uint32_t kSide = 4;
+  /// A square BMP, row by row from below; `color_at` tells a pixel's colour as 0xrrggbb.
+  std::string add_picture(std::uint32_t side,
+                          const std::function<std::uint32_t(std::uint32_t pixel)>& color_at) {
     std::string bytes = "BM";
     const auto put = [&bytes](std::uint32_t value, int count) {
       for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i));
     };
-    put(54 + 3 * kSide * kSide, 4), put(0, 4), put(54, 4);
-    put(40, 4), put(kSide, 4), put(kSide, 4), put(1, 2), put(24, 2);
+    put(54 + 3 * side * side, 4), put(0, 4), put(54, 4);
+    put(40, 4), put(side, 4), put(side, 4), put(1, 2), put(24, 2);
     for (int i = 0; i < 6; ++i) put(0, 4);
-    for (std::uint32_t i = 0; i < kSide * kSide; ++i) put(blue, 1), put(green, 1), put(red, 1);
+    for (std::uint32_t i = 0; i < side * side; ++i) put(color_at(i), 3);
     return add_texture_file(bytes);
+  }
+  std::string add_texture(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
+    const auto color = static_cast<std::uint32_t>(red << 16 | green << 8 | blue);
+    return add_picture(4, [color](std::uint32_t) { return color; });
   }
   std::string add_texture_file(const std::string& bytes) {
     const std::string name = sha256_hex(bytes);
