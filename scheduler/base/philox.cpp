@@ -26,6 +26,10 @@ std::uint64_t PhiloxStream::bits(const Position& position) const {
   return (static_cast<std::uint64_t>(words[0]) << 32) | words[1];
 }
 
+std::uint32_t PhiloxStream::cycles_seed(const Position& position) const {
+  return static_cast<std::uint32_t>(bits(position) >> 33);
+}
+
 double PhiloxStream::uniform(const Position& position) const {
   constexpr double kTwoToMinus52 = 1.0 / 4503599627370496.0;
   return (static_cast<double>(bits(position) >> 12) + 0.5) * kTwoToMinus52;

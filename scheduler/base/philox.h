@@ -29,6 +29,8 @@ class PhiloxStream {
   double uniform(const Position& position) const;
   /// 64 random bits.
   std::uint64_t bits(const Position& position) const;
+  /// 31 random bits: a seed of Cycles, which is a signed 32-bit integer.
+  std::uint32_t cycles_seed(const Position& position) const;
 
  private:
   std::uint64_t key_;

@@ -89,11 +89,7 @@ class OneFrame : public SideClient {
            fs::path file)
       : expander_(expander), frame_(frame), color_(color), file_(std::move(file)) {}
 
-  Result<std::optional<ExpandedFrame>> frame(std::int64_t) override {
-    Result<ExpandedFrame> expanded = expander_.expand(frame_);
-    if (!expanded) return forward_error(expanded);
-    return std::move(*expanded);
-  }
+  Result<ExpandedFrame> frame(std::int64_t) override { return expander_.expand(frame_); }
   Status rendered(std::int64_t, const SideFrame& frame) override {
     timings = frame.timings;
     samples = frame.spec.render.samples;

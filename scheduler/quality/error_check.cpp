@@ -81,13 +81,11 @@ class ErrorChecker : public SideClient {
     return check;
   }
 
-  Result<std::optional<ExpandedFrame>> frame(std::int64_t job) override {
+  Result<ExpandedFrame> frame(std::int64_t job) override {
     const StoredFrame& stored = stored_[index(job)];
     if (half(job) == 0) on_rendering_(stored.frame);
-    Result<ExpandedFrame> expanded = expand_half(
-        reference_, stored.frame, half(job) == 0 ? ReferenceHalf::kA : ReferenceHalf::kB);
-    if (!expanded) return forward_error(expanded);
-    return std::move(*expanded);
+    return expand_half(reference_, stored.frame,
+                       half(job) == 0 ? ReferenceHalf::kA : ReferenceHalf::kB);
   }
 
   Status rendered(std::int64_t job, const SideFrame& frame) override {

@@ -41,7 +41,7 @@ class ErrorStudy : public SideClient {
   std::int64_t jobs() const { return static_cast<std::int64_t>(jobs_.size()); }
   Result<SceneStudy> result(SceneStudy study) const;
 
-  Result<std::optional<ExpandedFrame>> frame(std::int64_t job) override;
+  Result<ExpandedFrame> frame(std::int64_t job) override;
   Status rendered(std::int64_t job, const SideFrame& frame) override;
   void failed(std::int64_t job, const std::string& why) override;
 
@@ -160,7 +160,7 @@ Result<const PreparedCampaign*> ErrorStudy::prepared_for(const Variation& variat
   return &*prepared_now_;
 }
 
-Result<std::optional<ExpandedFrame>> ErrorStudy::frame(std::int64_t number) {
+Result<ExpandedFrame> ErrorStudy::frame(std::int64_t number) {
   const Job& job = jobs_[static_cast<std::size_t>(number)];
   const bool is_half = job.purpose == Purpose::kHalfA || job.purpose == Purpose::kHalfB;
   Variation variation;
@@ -185,9 +185,8 @@ Result<std::optional<ExpandedFrame>> ErrorStudy::frame(std::int64_t number) {
       is_half ? expand_half(**prepared, frame,
                             job.purpose == Purpose::kHalfA ? ReferenceHalf::kA : ReferenceHalf::kB)
               : (*prepared)->expander.expand(frame);
-  if (!expanded) return forward_error(expanded);
-  if (job.purpose != Purpose::kWarmUp) on_rendering_(variation.name, frame);
-  return std::move(*expanded);
+  if (expanded && job.purpose != Purpose::kWarmUp) on_rendering_(variation.name, frame);
+  return expanded;
 }
 
 Status ErrorStudy::half_done(std::size_t pilot) {

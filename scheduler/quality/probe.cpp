@@ -19,12 +19,9 @@ class ProbeClient : public SideClient {
               const ColorManagement& color, const Before& before, const Told& told)
       : probes_(probes), prepared_(prepared), color_(color), before_(before), told_(told) {}
 
-  Result<std::optional<ExpandedFrame>> frame(std::int64_t job) override {
+  Result<ExpandedFrame> frame(std::int64_t job) override {
     before_(job);
-    Result<ExpandedFrame> expanded =
-        expand_probe(prepared_, probes_[static_cast<std::size_t>(job)]);
-    if (!expanded) return forward_error(expanded);
-    return std::move(*expanded);
+    return expand_probe(prepared_, probes_[static_cast<std::size_t>(job)]);
   }
   Status rendered(std::int64_t job, const SideFrame& frame) override {
     Result<Image<std::uint8_t>> display = color_.apply(frame.passes.combined, frame.spec.image);
@@ -76,10 +73,8 @@ Result<ExpandedFrame> expand_probe(const PreparedCampaign& prepared, const Probe
   spec.render.adaptive = probe.choice.adaptive;
   spec.render.denoise = probe.choice.denoise;
   spec.render.depth = spec.render.normal = false;
-  // Cycles' seed is a signed 32-bit integer.
   const PhiloxStream stream(prepared.settings.seed, "quality.probe." + probe.stream);
-  spec.render.seed = static_cast<std::uint32_t>(
-      stream.bits({.frame = static_cast<std::uint32_t>(probe.frame)}) >> 33);
+  spec.render.seed = stream.cycles_seed({.frame = static_cast<std::uint32_t>(probe.frame)});
   if (probe.quarter) halve_resolution(spec);
   expanded->id = frame_id(spec);
   return expanded;

@@ -13,9 +13,7 @@ Result<ExpandedFrame> expand_half(const PreparedCampaign& prepared, std::int64_t
   const PhiloxStream stream(prepared.settings.seed, half == ReferenceHalf::kA
                                                         ? "quality.reference.a"
                                                         : "quality.reference.b");
-  // Cycles' seed is a signed 32-bit integer.
-  expanded->spec.render.seed =
-      static_cast<std::uint32_t>(stream.bits({.frame = static_cast<std::uint32_t>(frame)}) >> 33);
+  expanded->spec.render.seed = stream.cycles_seed({.frame = static_cast<std::uint32_t>(frame)});
   expanded->id = frame_id(expanded->spec);
   return expanded;
 }

@@ -56,16 +56,11 @@ class SideRun : private RenderClient {
   }
 
   Result<std::optional<RenderRequest>> request(const FrameJob& job) override {
-    Result<std::optional<ExpandedFrame>> frame = client_.frame(job.frame);
+    Result<ExpandedFrame> frame = client_.frame(job.frame);
     if (!frame) return forward_error(frame);
-    if (!*frame) {
-      pool_.drain();
-      judges_.push([this, job] { pool_.post_verdict(job, {}); });
-      return std::nullopt;
-    }
-    Task task{(*frame)->spec, (*frame)->id, scratch_ / fmt::format("{}.exr", job.frame)};
+    Task task{frame->spec, frame->id, scratch_ / fmt::format("{}.exr", job.frame)};
     Result<RenderRequest> request = make_render_request(
-        **frame, task.rendered,
+        *frame, task.rendered,
         [this](const std::string& sha256) { return scratch_ / (sha256 + ".mesh"); });
     if (!request) return forward_error(request);
     tasks_[job] = std::move(task);

@@ -29,8 +29,8 @@ struct SideFrame {
 class SideClient {
  public:
   virtual ~SideClient() = default;
-  /// Nothing: no more jobs are begun, whatever their number. An error fails the job.
-  virtual Result<std::optional<ExpandedFrame>> frame(std::int64_t job) = 0;
+  /// An error fails the job.
+  virtual Result<ExpandedFrame> frame(std::int64_t job) = 0;
   /// An error ends all.
   virtual Status rendered(std::int64_t job, const SideFrame& frame) = 0;
   /// A job that could not be rendered.

@@ -85,9 +85,7 @@ RenderSettings SceneExpander::Program::render_settings(const EvaluationContext& 
   RenderSettings render = settings_.render;
   render.width = config_.render.width;  // of the whole image, if patches are cut out of it
   render.height = config_.render.height;
-  // Cycles' seed is a signed 32-bit integer.
-  render.seed =
-      static_cast<std::uint32_t>(render_seed_.bits(context.position(Level::kFrame)) >> 33);
+  render.seed = render_seed_.cycles_seed(context.position(Level::kFrame));
   return render;
 }
 

@@ -18,6 +18,11 @@ TEST(PhiloxStream, FirstDrawsAreWhatTheyHaveAlwaysBeen) {
   EXPECT_EQ(canonical_json(stream.uniform({.scene = 3, .frame = 2})), "0.8171076993170222");
 }
 
+TEST(PhiloxStream, ASeedOfCyclesIsTheFirst31Bits) {
+  const PhiloxStream stream(1, "variables.scene.x");
+  EXPECT_EQ(stream.cycles_seed({}), 6255407832052008774u >> 33);
+}
+
 TEST(PhiloxStream, SeedZeroIsASeedLikeAnyOther) {
   EXPECT_NE(PhiloxStream(0, "x").bits({}), PhiloxStream(1, "x").bits({}));
 }
