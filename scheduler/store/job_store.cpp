@@ -1,5 +1,7 @@
 #include "store/job_store.h"
 
+#include <unistd.h>
+
 #include "base/sha256.h"
 #include "store/job_store_database.h"
 
@@ -54,6 +56,24 @@ PRAGMA user_version = 4;
 COMMIT;
 )sql";
 
+/// Whether nobody of this machine changes it, nor could SQLite put beside it what a reader needs;
+/// and whether it is all there is: no scheduler has left a WAL.
+bool is_unchanging(const std::filesystem::path& path) {
+  std::error_code error;
+  return ::access(std::filesystem::absolute(path).parent_path().c_str(), W_OK) != 0 &&
+         !std::filesystem::exists(path.string() + "-wal", error);
+}
+
+Status open_for_writing(sqlite::Connection& connection, const std::filesystem::path& path) {
+  if (Status opened = connection.open(path, SQLITE_OPEN_READWRITE); !opened) return opened;
+  // A checkpoint waits for the disk: one for 32 MiB of log delays few commits.
+  for (const char* sql : {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = FULL",
+                          "PRAGMA wal_autocheckpoint = 8192"}) {
+    if (Status done = connection.execute(sql); !done) return done;
+  }
+  return {};
+}
+
 }  // namespace
 
 JobStore::JobStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
@@ -82,14 +102,9 @@ Result<JobStore> JobStore::open(const std::filesystem::path& path) {
     return fail(ErrorKind::kInput, "there is no campaign here: {} is missing", path.string());
   }
   auto database = std::make_unique<Database>();
-  if (Status opened = database->connection.open(path, SQLITE_OPEN_READWRITE); !opened) {
-    return forward_error(opened);
-  }
-  // A checkpoint waits for the disk: one for 32 MiB of log delays few commits.
-  for (const char* sql : {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = FULL",
-                          "PRAGMA wal_autocheckpoint = 8192"}) {
-    if (Status done = database->connection.execute(sql); !done) return forward_error(done);
-  }
+  const Status opened = is_unchanging(path) ? database->connection.open_unchanging(path)
+                                            : open_for_writing(database->connection, path);
+  if (!opened) return forward_error(opened);
   Statement version(database->connection, "PRAGMA user_version");
   if (!version.step()) return tl::unexpected(version.status().error());
   if (version.integer(0) != kVersion) {

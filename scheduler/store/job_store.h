@@ -92,7 +92,8 @@ class JobStore {
   /// Makes a new store; one that exists is an error. It counts only under its final name: see
   /// create_campaign.
   static Result<JobStore> create(const std::filesystem::path& path);
-  /// Opens a store that exists. Not a store, damaged, or of a newer version: an error that says so.
+  /// Opens a store that exists; in a folder that cannot be written only for reading. Not a store,
+  /// damaged, or of a newer version: an error that says so.
   static Result<JobStore> open(const std::filesystem::path& path);
   ~JobStore();
   JobStore(JobStore&&) noexcept;

@@ -27,6 +27,19 @@ class Connection {
     return {};
   }
 
+  /// Of a file that nobody changes meanwhile: needs no files beside it, as a WAL and its index are.
+  Status open_unchanging(const std::filesystem::path& path) {
+    std::string uri = "file:";
+    for (const char c : std::filesystem::absolute(path).string()) {
+      const bool has_meaning = c == '%' || c == '?' || c == '#';
+      uri +=
+          has_meaning ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
+    }
+    const Status opened = open(uri + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+    path_ = path;
+    return opened;
+  }
+
   Status execute(const char* sql) const {
     if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) return failure("use");
     return {};

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "base/files.h"
 #include "tests/fixtures/scratch_folder.h"
@@ -317,6 +319,43 @@ TEST_F(JobStoreTest, TwinsOfDoneFramesAreSummedUp) {
   EXPECT_EQ((*store.frame(1))->twin, (TwinTally{1000, 2, 1}));
   ASSERT_TRUE(store.reset(1));
   EXPECT_EQ(store.twin_summary()->frames, 1) << "only what is done counts";
+}
+
+/// What `body` returns in a process that root's rights do not help.
+int as_nobody(const std::function<int()>& body) {
+  constexpr uid_t kNobody = 65534;
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    const bool is_root = ::geteuid() == 0;
+    ::_exit(is_root && ::setuid(kNobody) != 0 ? 127 : body());
+  }
+  int status = 0;
+  ::waitpid(pid, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST_F(JobStoreTest, CanBeReadWhereNothingCanBeWritten) {
+  const fs::path folder = folder_ / "100% read only?";
+  fs::create_directory(folder);
+  {
+    JobStore made = store_with(3);
+    ASSERT_TRUE(made.set_meta("key", "value"));
+  }
+  fs::rename(path_, folder / "campaign.sqlite");
+  ASSERT_TRUE(JobStore::open(folder / "campaign.sqlite"));  // from now on it is in WAL mode
+  fs::permissions(folder_.path(), fs::perms(0755));
+  fs::permissions(folder, fs::perms(0555));
+  const int code = as_nobody([&] {
+    auto store = JobStore::open(folder / "campaign.sqlite");
+    if (!store) {
+      std::fprintf(stderr, "%s\n", store.error().message.c_str());
+      return 1;
+    }
+    if (store->counts()->pending != 3 || *store->meta("key") != "value") return 2;
+    return store->set_meta("key", "other") ? 3 : 0;
+  });
+  fs::permissions(folder, fs::perms(0755));
+  EXPECT_EQ(code, 0);
 }
 
 }  // namespace
