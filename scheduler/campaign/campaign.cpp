@@ -38,6 +38,7 @@ Status describe_campaign(const PreparedCampaign& prepared, JobStore& store) {
   if (Status set = store.set_meta(kEncodingKey, encoding); !set) return set;
   const std::shared_ptr<const RenderChoices>& choices = prepared.expander.choices();
   if (choices == nullptr) return {};
+  if (Status set = store.set_meta(kQualityKey, quality_text(prepared.settings)); !set) return set;
   return store.set_meta(kChoicesKey, canonical_json(to_json(*choices)));
 }
 
@@ -171,6 +172,10 @@ Result<Campaign> create_scratch_campaign(const fs::path& folder,
   Campaign campaign{files, std::move(*store)};
   if (Status begun = begin_run(campaign); !begun) return forward_error(begun);
   return campaign;
+}
+
+std::string quality_text(const CampaignSettings& settings) {
+  return settings.quality ? canonical_json(to_json(*settings.quality)) : std::string();
 }
 
 Result<Campaign> open_campaign(const fs::path& folder) {

@@ -50,6 +50,10 @@ inline constexpr const char* kInputsKey = "inputs";
 /// (RenderChoices as JSON).
 inline constexpr const char* kChoicesKey = "choices";
 
+/// Key in the store's meta: how wrong frames may be (QualityWish as JSON); empty: nothing is said.
+inline constexpr const char* kQualityKey = "quality";
+std::string quality_text(const CampaignSettings& settings);
+
 /// Key in the store's meta: how the pictures of all frames that are done are encoded, as JSON.
 inline constexpr const char* kEncodingKey = "image";
 /// What is there; PNG in a store from before there was a choice.

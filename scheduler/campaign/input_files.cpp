@@ -163,6 +163,8 @@ Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign&
     }
     const std::string encoding = canonical_json(to_json(prepared.settings.image_encoding));
     if (Status done = campaign.store.set_meta(kEncodingKey, encoding); !done) return done;
+    const std::string quality = quality_text(prepared.settings);
+    if (Status done = campaign.store.set_meta(kQualityKey, quality); !done) return done;
     return campaign.store.set_meta(kInputsKey, canonical_json(Json(now)));
   });
   if (!written) return forward_error(written);

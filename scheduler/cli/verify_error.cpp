@@ -16,6 +16,7 @@
 #include "cli/verb.h"
 #include "manual/describe_command.h"
 #include "quality/error_check.h"
+#include "quality/error_record.h"
 
 namespace seedframe {
 namespace {
@@ -47,7 +48,7 @@ Result<std::vector<std::int64_t>> frames_to_check(const VerifyErrorArguments& ar
   return stratified_sample(done, arguments.frames, arguments.sample_seed);
 }
 
-Json to_json(const ErrorCheck& check, const ErrorPromise& promise, bool is_promised) {
+Json to_json(const ErrorCheck& check, const ErrorPromise& promise, const PromiseCheck* outcome) {
   Json frames = Json::array();
   for (const CheckedFrame& frame : check.frames) {
     Json json = {{"frame", frame.frame}, {"display_bias", frame.error.display.bias}};
@@ -57,16 +58,15 @@ Json to_json(const ErrorCheck& check, const ErrorPromise& promise, bool is_promi
   Json json = {{"reference_samples", check.reference_samples},
                {"reference_cpu_s", check.reference_cpu_s},
                {"frames", frames}};
-  if (is_promised) {
-    const PromiseCheck outcome = check_promise(check, promise);
+  if (outcome != nullptr) {
     json["promise"] = {{"measure", promise.measure->key},
                        {"max_error", promise.max_error},
                        {"share", promise.share},
-                       {"within", outcome.within.value},
-                       {"within_least", outcome.within.least},
-                       {"within_most", outcome.within.most},
-                       {"beyond", outcome.beyond},
-                       {"kept", outcome.is_kept}};
+                       {"within", outcome->within.value},
+                       {"within_least", outcome->within.least},
+                       {"within_most", outcome->within.most},
+                       {"beyond", outcome->beyond},
+                       {"kept", outcome->is_kept}};
   }
   return json;
 }
@@ -82,10 +82,10 @@ void print_check(const ErrorCheck& check, const ErrorPromise& promise) {
                frame.error.display.flip, frame.error.display.bias);
   }
   constexpr double kMost = 0.95;
+  const std::vector<FrameError> errors = check.errors_in(*promise.measure);
   fmt::print("{}: half of them within {:.3g}, 95 % within {:.3g}, all within {:.3g}\n",
-             promise.measure->key, quantile_of_error(check, *promise.measure, 0.5),
-             quantile_of_error(check, *promise.measure, kMost),
-             quantile_of_error(check, *promise.measure, 1.0));
+             promise.measure->key, quantile_of_error(errors, 0.5), quantile_of_error(errors, kMost),
+             quantile_of_error(errors, 1.0));
 }
 
 void print_promise(const PromiseCheck& outcome, const ErrorPromise& promise) {
@@ -104,13 +104,22 @@ ErrorPromise promise_of(const VerifyErrorArguments& arguments, const CampaignSet
   if (arguments.max_error > 0.0 || !settings.quality) {
     return {&measure_named(arguments.measure), arguments.max_error, arguments.share};
   }
-  const ErrorBound bound = error_bound(*settings.quality);
-  return {&measure_named(kQualityMetricNames[static_cast<std::size_t>(bound.metric)]),
-          bound.max_error, settings.quality->share};
+  return promise_of(*settings.quality);
+}
+
+/// For 'status' and 'resume --raise'; of a campaign that promises nothing, nobody asks later.
+bool keep(Campaign& campaign, const PreparedCampaign& prepared, const ErrorCheck& check) {
+  if (!prepared.settings.quality) return false;
+  const Status kept = keep_errors(campaign, check);
+  if (!kept) {
+    std::fprintf(stderr, "seedframe: note: the campaign does not keep what was measured: %s\n",
+                 kept.error().message.c_str());
+  }
+  return kept.has_value();
 }
 
 int verify_error(const VerifyErrorArguments& arguments) {
-  const Result<Campaign> campaign = open_campaign(arguments.folder);
+  Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
   const Result<PreparedCampaign> prepared =
       prepare_again(*campaign, seedframe_home(), arguments.allowed);
@@ -134,9 +143,12 @@ int verify_error(const VerifyErrorArguments& arguments) {
   if (!check) return report(check.error());
   const ErrorPromise promise = promise_of(arguments, prepared->settings);
   const bool is_promised = promise.max_error > 0.0;
-  const PromiseCheck outcome = check_promise(*check, promise);
+  const PromiseCheck outcome = check_promise(check->errors_in(*promise.measure), promise);
+  const bool is_recorded = keep(*campaign, *prepared, *check);
   if (arguments.json) {
-    fmt::print("{}", readable_json(to_json(*check, promise, is_promised)));
+    Json json = to_json(*check, promise, is_promised ? &outcome : nullptr);
+    json["recorded"] = is_recorded;
+    fmt::print("{}", readable_json(json));
   } else {
     print_check(*check, promise);
     if (is_promised) print_promise(outcome, promise);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -19,7 +18,7 @@ namespace {
 
 /// What the campaign has of a frame.
 struct StoredFrame {
-  std::int64_t frame = 0;
+  FrameRow row;
   FrameSpec spec;
   Picture picture;
 };
@@ -52,7 +51,7 @@ Result<StoredFrame> read_stored(const Campaign& campaign, const PreparedCampaign
   Result<Image<std::uint8_t>> display = color.apply(passes->combined, expanded->spec.image);
   if (!display) return forward_error(display);
   return StoredFrame{
-      frame, std::move(expanded->spec), {std::move(passes->combined), std::move(*display)}};
+      **row, std::move(expanded->spec), {std::move(passes->combined), std::move(*display)}};
 }
 
 class ErrorChecker : public SideClient {
@@ -73,9 +72,10 @@ class ErrorChecker : public SideClient {
     ErrorCheck check;
     for (std::size_t i = 0; i < stored_.size(); ++i) {
       if (!errors_[i]) {
-        return fail(ErrorKind::kRender, "frame {} has no reference", stored_[i].frame);
+        return fail(ErrorKind::kRender, "frame {} has no reference", stored_[i].row.frame);
       }
-      check.frames.push_back({stored_[i].frame, *errors_[i]});
+      const FrameRow& row = stored_[i].row;
+      check.frames.push_back({row.frame, row.frame_id, row.pixel_hash, *errors_[i]});
     }
     check.reference_cpu_s = cpu_s_ / static_cast<double>(std::max<std::size_t>(1, stored_.size()));
     return check;
@@ -83,8 +83,8 @@ class ErrorChecker : public SideClient {
 
   Result<ExpandedFrame> frame(std::int64_t job) override {
     const StoredFrame& stored = stored_[index(job)];
-    if (half(job) == 0) on_rendering_(stored.frame);
-    return expand_half(reference_, stored.frame,
+    if (half(job) == 0) on_rendering_(stored.row.frame);
+    return expand_half(reference_, stored.row.frame,
                        half(job) == 0 ? ReferenceHalf::kA : ReferenceHalf::kB);
   }
 
@@ -108,7 +108,7 @@ class ErrorChecker : public SideClient {
     const std::lock_guard lock(mutex_);
     if (!failure_) return;
     failure_ = fail(ErrorKind::kRender, "the reference of frame {} was not rendered: {}",
-                    stored_[index(job)].frame, why);
+                    stored_[index(job)].row.frame, why);
   }
 
  private:
@@ -127,6 +127,12 @@ class ErrorChecker : public SideClient {
 };
 
 }  // namespace
+
+std::vector<FrameError> ErrorCheck::errors_in(const Measure& measure) const {
+  std::vector<FrameError> errors;
+  for (const CheckedFrame& each : frames) errors.push_back({each.frame, measure.of(each.error)});
+  return errors;
+}
 
 std::vector<std::int64_t> stratified_sample(const std::vector<std::int64_t>& done, int count,
                                             std::uint64_t seed) {
@@ -171,41 +177,6 @@ Result<ErrorCheck> check_errors(const Campaign& campaign, const PreparedCampaign
   Result<ErrorCheck> check = checker.result();
   if (check) check->reference_samples = wishes.reference_samples / 2 * 2;
   return check;
-}
-
-EstimatedShare estimate_share(int within, int of) {
-  if (of == 0) return {};
-  constexpr double kZ = 1.959963984540054;  // of 95 %
-  const double n = of;
-  const double p = within / n;
-  const double center = (p + kZ * kZ / (2.0 * n)) / (1.0 + kZ * kZ / n);
-  const double half =
-      kZ / (1.0 + kZ * kZ / n) * std::sqrt(p * (1.0 - p) / n + kZ * kZ / (4.0 * n * n));
-  return {p, std::max(0.0, center - half), std::min(1.0, center + half)};
-}
-
-PromiseCheck check_promise(const ErrorCheck& check, const ErrorPromise& promise) {
-  PromiseCheck result;
-  for (const CheckedFrame& frame : check.frames) {
-    // A NaN is beyond any bound.
-    if (!(promise.measure->of(frame.error) <= promise.max_error)) {
-      result.beyond.push_back(frame.frame);
-    }
-  }
-  const auto all = static_cast<int>(check.frames.size());
-  result.within = estimate_share(all - static_cast<int>(result.beyond.size()), all);
-  result.is_kept = all > 0 && result.within.value >= promise.share;
-  return result;
-}
-
-double quantile_of_error(const ErrorCheck& check, const Measure& measure, double share) {
-  if (check.frames.empty()) return 0.0;
-  std::vector<double> errors;
-  for (const CheckedFrame& frame : check.frames) errors.push_back(measure.of(frame.error));
-  std::sort(errors.begin(), errors.end());
-  const double rank = std::ceil(share * static_cast<double>(errors.size()));
-  const auto index = static_cast<std::size_t>(std::max(1.0, rank)) - 1;
-  return errors[std::min(index, errors.size() - 1)];
 }
 
 }  // namespace seedframe

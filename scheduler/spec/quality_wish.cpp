@@ -9,16 +9,12 @@ namespace {
 
 constexpr int kVersion = 1;
 
-Json to_json(const RenderChoice& choice) {
-  Json json = {{"samples", choice.samples}};
-  if (choice.adaptive.threshold > 0.0) {
-    json["adaptive"] = {{"threshold", choice.adaptive.threshold},
-                        {"min_samples", choice.adaptive.min_samples}};
-  }
-  if (choice.denoise != Denoise::kOff) {
-    json["denoise"] = kDenoiseNames[static_cast<std::size_t>(choice.denoise)];
-  }
-  return json;
+Status check_version(const Json& json, const std::string& what, const char* kind) {
+  const Result<int> version = json_field<int>(json, "version", what);
+  if (!version) return forward_error(version);
+  if (*version == kVersion) return {};
+  return fail(ErrorKind::kCorrupt, "{} are {} of version {}; this program reads version {}", what,
+              kind, *version, kVersion);
 }
 
 RenderChoice choice_from_json(const Json& json) {
@@ -55,6 +51,45 @@ ErrorBound error_bound(const QualityWish& wish) {
   return {QualityMetric::kRmse8, kPeak * std::pow(10.0, -wish.max_error / 20.0)};
 }
 
+Json to_json(const QualityWish& wish) {
+  return {{"version", kVersion},
+          {"metric", kQualityMetricNames[static_cast<std::size_t>(wish.metric)]},
+          {"max_error", wish.max_error},
+          {"share", wish.share},
+          {"denoise", wish.may_denoise}};
+}
+
+Result<QualityWish> quality_wish_from_json(const Json& json, const std::string& what) {
+  if (Status known = check_version(json, what, "wishes"); !known) return forward_error(known);
+  const auto metric = json_field<std::string>(json, "metric", what);
+  if (!metric) return forward_error(metric);
+  const auto& names = kQualityMetricNames;
+  const auto found = std::find(names.begin(), names.end(), *metric);
+  if (found == names.end()) {
+    return fail(ErrorKind::kCorrupt, "{}: unknown metric '{}'", what, *metric);
+  }
+  const auto max_error = json_field<double>(json, "max_error", what);
+  if (!max_error) return forward_error(max_error);
+  const auto share = json_field<double>(json, "share", what);
+  if (!share) return forward_error(share);
+  const auto denoise = json_field<bool>(json, "denoise", what);
+  if (!denoise) return forward_error(denoise);
+  return QualityWish{static_cast<QualityMetric>(found - names.begin()), *max_error, *share,
+                     *denoise};
+}
+
+Json to_json(const RenderChoice& choice) {
+  Json json = {{"samples", choice.samples}};
+  if (choice.adaptive.threshold > 0.0) {
+    json["adaptive"] = {{"threshold", choice.adaptive.threshold},
+                        {"min_samples", choice.adaptive.min_samples}};
+  }
+  if (choice.denoise != Denoise::kOff) {
+    json["denoise"] = kDenoiseNames[static_cast<std::size_t>(choice.denoise)];
+  }
+  return json;
+}
+
 Json to_json(const RenderChoices& choices) {
   Json frames = Json::object();
   for (const auto& [frame, choice] : choices) frames[std::to_string(frame)] = to_json(choice);
@@ -62,12 +97,7 @@ Json to_json(const RenderChoices& choices) {
 }
 
 Result<RenderChoices> render_choices_from_json(const Json& json, const std::string& what) {
-  const Result<int> version = json_field<int>(json, "version", what);
-  if (!version) return forward_error(version);
-  if (*version != kVersion) {
-    return fail(ErrorKind::kCorrupt, "{} are choices of version {}; this program reads version {}",
-                what, *version, kVersion);
-  }
+  if (Status known = check_version(json, what, "choices"); !known) return forward_error(known);
   try {
     RenderChoices choices;
     for (const auto& [key, value] : json.at("frames").items()) {

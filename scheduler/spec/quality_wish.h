@@ -34,6 +34,11 @@ struct ErrorBound {
 };
 ErrorBound error_bound(const QualityWish& wish);
 
+/// {"version": 1, "metric": "rmse8", "max_error": 4, "share": 0.95, "denoise": true}
+Json to_json(const QualityWish& wish);
+/// Reads what to_json wrote; the error (kCorrupt) names `what`.
+Result<QualityWish> quality_wish_from_json(const Json& json, const std::string& what);
+
 /// What is chosen of one frame's render settings.
 struct RenderChoice {
   int samples = 1;
@@ -46,8 +51,10 @@ struct RenderChoice {
 /// By frame of the campaign.
 using RenderChoices = std::map<std::int64_t, RenderChoice>;
 
-/// {"version": 1, "frames": {"7": {"samples": 16, "denoise": "oidn_fast"}, …}}: what is not said is
-/// off.
+/// {"samples": 16, "denoise": "oidn_fast"}: what is not said is off.
+Json to_json(const RenderChoice& choice);
+
+/// {"version": 1, "frames": {"7": {"samples": 16, "denoise": "oidn_fast"}, …}}
 Json to_json(const RenderChoices& choices);
 /// Reads what to_json wrote; the error (kCorrupt) names `what`.
 Result<RenderChoices> render_choices_from_json(const Json& json, const std::string& what);

@@ -33,6 +33,28 @@ TEST(RenderChoices, ThatAreDamagedAreErrors) {
               HasSubstr("unknown denoiser 'x'"));
 }
 
+TEST(QualityWish, SurvivesItsJson) {
+  const QualityWish wish = {QualityMetric::kFlip, 0.125, 0.9, true};
+  const auto read = quality_wish_from_json(to_json(wish), "c");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(*read, wish);
+}
+
+TEST(QualityWish, ThatIsDamagedIsAnError) {
+  const Json whole = to_json(QualityWish{QualityMetric::kRmse8, 4.0, 0.95, false});
+  for (const auto& [key, value] : whole.items()) {
+    Json damaged = whole;
+    damaged.erase(key);
+    EXPECT_FALSE(quality_wish_from_json(damaged, "c")) << "without " << key;
+    damaged[key] = Json::array();
+    EXPECT_FALSE(quality_wish_from_json(damaged, "c")) << "with another " << key;
+  }
+  Json other = whole;
+  other["metric"] = "beauty";
+  EXPECT_THAT(quality_wish_from_json(other, "c").error().message,
+              HasSubstr("c: unknown metric 'beauty'"));
+}
+
 TEST(ErrorBound, OfAPsnrIsTheRmseThatItMeans) {
   const ErrorBound bound = error_bound({QualityMetric::kPsnr, 40.0});
   EXPECT_EQ(bound.metric, QualityMetric::kRmse8);
