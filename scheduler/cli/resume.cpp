@@ -13,6 +13,7 @@
 #include "cli/run_campaign.h"
 #include "cli/run_options.h"
 #include "cli/verb.h"
+#include "quality/raise.h"
 
 namespace seedframe {
 namespace {
@@ -22,6 +23,7 @@ struct ResumeArguments {
   std::vector<std::int64_t> frames;
   std::vector<std::string> allowed;
   bool verify = false;
+  bool raise = false;
   RunOptions run;
 };
 
@@ -54,6 +56,43 @@ Status select_frames(Campaign& campaign, const std::vector<std::int64_t>& wanted
   return {};
 }
 
+void print_raises(const RaisePlan& plan, int most_samples) {
+  const std::string bound =
+      fmt::format("{} of {:.4g}", plan.promise.measure->key, plan.promise.max_error);
+  for (const FrameError& each : plan.at_their_most) {
+    std::fprintf(
+        stderr,
+        "frame %lld (%.3g) is beyond %s with all render.samples (%d): it cannot be raised\n",
+        static_cast<long long>(each.frame), each.error, bound.c_str(), most_samples);
+  }
+  if (plan.raises.empty()) {
+    std::fprintf(stderr, "no frame that was measured is beyond %s and can be raised\n",
+                 bound.c_str());
+    return;
+  }
+  std::fprintf(stderr, "%zu frames are beyond %s and are rendered again:\n", plan.raises.size(),
+               bound.c_str());
+  for (const Raise& raise : plan.raises) {
+    std::fprintf(stderr, "  frame %lld (%.3g): %s instead of %s\n",
+                 static_cast<long long>(raise.frame), raise.error, describe(raise.to).c_str(),
+                 describe(raise.from).c_str());
+  }
+}
+
+/// Which frames; none if nothing is to be raised.
+Result<std::vector<std::int64_t>> raise_measured(Campaign& campaign, PreparedCampaign& prepared) {
+  const Result<RaisePlan> plan = plan_raises(campaign, prepared);
+  if (!plan) return forward_error(plan);
+  print_raises(*plan, prepared.settings.render.samples);
+  std::vector<std::int64_t> frames;
+  for (const Raise& raise : plan->raises) frames.push_back(raise.frame);
+  if (frames.empty()) return frames;
+  if (Status raised = raise_frames(campaign, prepared, *plan); !raised) {
+    return forward_error(raised);
+  }
+  return frames;
+}
+
 int resume(ResumeArguments arguments) {
   Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
@@ -71,6 +110,12 @@ int resume(ResumeArguments arguments) {
   const Result<RenewedFrames> renewed = renew_changed_frames(*campaign, *prepared);
   if (!renewed) return report(renewed.error());
   print_renewed(*renewed);
+  std::vector<std::int64_t> raised;
+  if (arguments.raise) {
+    Result<std::vector<std::int64_t>> frames = raise_measured(*campaign, *prepared);
+    if (!frames) return report(frames.error());
+    raised = std::move(*frames);
+  }
   Result<Reconciliation> state = reconcile(*campaign, arguments.verify);
   if (!state) return report(state.error());
   for (const std::string& why : state->invalid) {
@@ -89,7 +134,13 @@ int resume(ResumeArguments arguments) {
   if (!setup) return report(setup.error());
   print_notes(*setup);
   if (!arguments.frames.empty()) setup->options.no_cache = true;  // "render", it says
-  return run_campaign(*campaign, *prepared, renewed->used, *setup, std::move(state->to_render));
+  const int code =
+      run_campaign(*campaign, *prepared, renewed->used, *setup, std::move(state->to_render));
+  if (!raised.empty()) {
+    fmt::print("whether it was enough: 'seedframe verify-error {} --frame {}'\n", arguments.folder,
+               fmt::join(raised, " --frame "));
+  }
+  return code;
 }
 
 }  // namespace
@@ -101,9 +152,15 @@ void add_resume_verb(CLI::App& app, const OnSelected& on_selected) {
       "render exactly what is missing, failed, invalid or out of date; a complete campaign renders "
       "nothing");
   verb->add_option("DIR", arguments->folder, "folder of the campaign")->required();
-  verb->add_option("--frame", arguments->frames, "render just this frame, even if it is done")
-      ->allow_extra_args(false)
-      ->check(CLI::NonNegativeNumber);
+  CLI::Option* frame =
+      verb->add_option("--frame", arguments->frames, "render just this frame, even if it is done")
+          ->allow_extra_args(false)
+          ->check(CLI::NonNegativeNumber);
+  verb->add_flag(
+          "--raise", arguments->raise,
+          "give frames more samples that 'verify-error' found beyond the promised error, and "
+          "render them again")
+      ->excludes(frame);
   add_allow_option(*verb, arguments->allowed);
   verb->add_flag(
       "--verify", arguments->verify,

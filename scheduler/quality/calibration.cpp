@@ -11,6 +11,7 @@
 #include "quality/error_model.h"
 #include "quality/error_study.h"
 #include "quality/probe.h"
+#include "quality/setting_steps.h"
 
 namespace seedframe {
 namespace {
@@ -21,8 +22,7 @@ constexpr int kReferenceHalf = 128;     // samples of each half of a pilot's ref
 constexpr int kScaleSamples = 16;       // that say what the whole resolution changes
 constexpr int kLeastQuarterWidth = 64;  // pixels: below that, probes are of the frame's own size
 constexpr std::array<int, 4> kPlainSettings = {1, 4, 16, 64};
-constexpr std::array<double, 3> kThresholds = {0.4, 0.1, 0.025};
-constexpr int kAdaptiveLeast = 16;  // where Cycles looks at a pixel's error for the first time
+constexpr std::array<double, 3> kThresholds = {kCoarsestThreshold, 0.1, 0.025};
 constexpr std::array<int, 3> kDenoisedSettings = {1, 4, 16};
 
 // Committed constants, from results/error_vs_time: they rank choices of the same predicted error.
@@ -92,7 +92,7 @@ class Calibrator {
  private:
   static RenderChoice plain(int samples) { return {samples, {}, Denoise::kOff}; }
   RenderChoice adaptive(double threshold) const {
-    return {most_, {threshold, std::min(kAdaptiveLeast, most_)}, Denoise::kOff};
+    return {most_, {threshold, std::min(kLeastAdaptiveSamples, most_)}, Denoise::kOff};
   }
   static RenderChoice denoised(int samples) { return {samples, {}, Denoise::kOidnFast}; }
 
@@ -238,24 +238,6 @@ double Calibrator::scale() const {
   return count > 0 ? std::exp(sum / count) : 1.0;
 }
 
-/// The next of 1, 2, 3, 4, 6, 8, 12, 16, 24, …: no prediction is better than that.
-int rounded_samples(double samples) {
-  const double least = samples * (1.0 - 1e-9);
-  for (int power = 1;; power *= 2) {
-    const int between = power + power / 2;  // of 1: 1
-    if (power >= least) return power;
-    if (between >= least) return between;
-  }
-}
-
-/// Thresholds are so many steps below the greatest, of a quarter of an octave each.
-double rounded_threshold(double threshold) {
-  constexpr double kSteps = 4.0;
-  constexpr double kDigits = 1e5;
-  const double steps = std::ceil(kSteps * std::log2(kThresholds.front() / threshold) - 1e-6);
-  return std::round(kThresholds.front() * std::exp2(-steps / kSteps) * kDigits) / kDigits;
-}
-
 Calibrator::Chosen Calibrator::choose(double scout, const Models& models) const {
   const double z = normal_quantile(wish_.share);
   const auto margin = [&](const ErrorModel& model) {
@@ -277,10 +259,9 @@ Calibrator::Chosen Calibrator::choose(double scout, const Models& models) const 
   }
   const bool may_stop_early = models.adaptive.is_usable() && plain_samples >= kAdaptiveFrom;
   if (may_stop_early && chosen.in_reach && kAdaptiveCost * plain_samples < cost) {
-    constexpr double kLeast = 0.001;
     const double threshold =
-        setting_for(models.adaptive, scout, bound_.max_error, margin(models.adaptive), kLeast,
-                    kThresholds.front(), true);
+        setting_for(models.adaptive, scout, bound_.max_error, margin(models.adaptive),
+                    kFinestThreshold, kCoarsestThreshold, true);
     const double predicted = models.adaptive.predict(scout, threshold) * margin(models.adaptive);
     if (predicted <= bound_.max_error * (1.0 + 1e-6)) {
       chosen.choice = adaptive(rounded_threshold(threshold));

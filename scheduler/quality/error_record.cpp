@@ -7,7 +7,7 @@
 namespace seedframe {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kRecordVersion = 1;
 constexpr const char* kErrorsKey = "errors";  // in the store's meta
 
 RecordedError recorded_from_json(const Json& json) {
@@ -44,16 +44,16 @@ Json to_json(const ErrorRecord& record) {
                                      {"reference_samples", recorded.reference_samples},
                                      {"errors", errors}};
   }
-  return {{"version", kVersion}, {"frames", frames}};
+  return {{"version", kRecordVersion}, {"frames", frames}};
 }
 
 Result<ErrorRecord> error_record_from_json(const Json& json, const std::string& what) {
   const Result<int> version = json_field<int>(json, "version", what);
   if (!version) return forward_error(version);
-  if (*version != kVersion) {
+  if (*version != kRecordVersion) {
     return fail(ErrorKind::kCorrupt,
                 "{} has measured errors of version {}; this program reads version {}", what,
-                *version, kVersion);
+                *version, kRecordVersion);
   }
   try {
     ErrorRecord record;
