@@ -49,6 +49,9 @@ void print_status(const CampaignStatus& status, const std::string& folder) {
              counts.quarantined, status.running ? " (a scheduler is at work)" : "");
   if (status.timings) print_timings(*status.timings, counts);
   if (status.twin.frames > 0) fmt::print("{}", twin_text(status.twin));
+  if (status.promise) {
+    for (const std::string& line : lines_of(*status.promise, folder)) fmt::print("{}\n", line);
+  }
   for (const std::string& difference : mixed_provenances(status)) {
     fmt::print("some attempts were made with {}: their pixels are not comparable\n", difference);
   }

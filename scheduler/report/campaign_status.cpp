@@ -35,8 +35,11 @@ Result<CampaignStatus> read_status(const Campaign& campaign) {
   const auto provenances = campaign.store.provenances();
   if (!provenances) return forward_error(provenances);
   status.provenances = *provenances;
-  status.running =
-      !CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0)).has_value();
+  auto promise = read_promise_status(campaign);
+  if (!promise) return forward_error(promise);
+  status.promise = std::move(*promise);
+  const auto lock = CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0));
+  status.running = !lock && lock.error().kind == ErrorKind::kInput;  // held, not out of reach
   return status;
 }
 
@@ -61,6 +64,7 @@ Json to_json(const CampaignStatus& status) {
   for (const std::string& text : status.provenances) {
     json["provenances"].push_back(Json::parse(text, nullptr, /*allow_exceptions=*/false));
   }
+  json["quality"] = status.promise ? to_json(*status.promise) : Json();
   const TwinSummary& twin = status.twin;
   json["twin"] = {{"frames", twin.frames},
                   {"frames_differing", twin.frames_differing},

@@ -8,6 +8,7 @@
 #include "base/canonical_json.h"
 #include "base/error.h"
 #include "campaign/campaign.h"
+#include "report/promise_status.h"
 
 namespace seedframe {
 
@@ -19,6 +20,7 @@ struct CampaignStatus {
   TwinSummary twin;
   std::string dataset_hash;              ///< empty until the campaign is complete
   std::vector<std::string> provenances;  ///< of attempts, as JSON
+  std::optional<PromiseStatus> promise;  ///< of how wrong frames are
   bool running = false;                  ///< a scheduler is at work
 };
 
