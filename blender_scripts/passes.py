@@ -22,8 +22,11 @@ class PassRenderer:
         scene.render.use_persistent_data = persistent_data
         scene.cycles.device = "CPU" if device == "cpu" else "GPU"
 
-    def render(self, settings, output, frame_id):
-        """Writes the passes of the present scene to `output`, with the id in the header's "Note"."""
+    def render(self, settings, output, frame_id, sample_counts=False):
+        """Writes the passes of the present scene to `output`, with the id in the header's "Note".
+
+        `sample_counts` asks for one more pass, which changes no other.
+        """
         render, cycles = self._scene.render, self._scene.cycles
         render.stamp_note_text = frame_id
         render.resolution_x = settings["width"]
@@ -39,6 +42,7 @@ class PassRenderer:
         _set_levers(self._scene, settings["max_bounces"], settings.get("levers", {}))
         self._view_layer.use_pass_z = settings["depth"]
         self._view_layer.use_pass_normal = settings["normal"]
+        self._view_layer.cycles.pass_debug_sample_count = sample_counts
 
         if os.path.lexists(output):
             os.remove(output)  # or an old file could pass for this one

@@ -23,6 +23,7 @@ class RenderRequest:
     output: str
     meshes: dict
     textures: dict
+    sample_counts: bool
 
     @staticmethod
     def parse(line):
@@ -32,6 +33,7 @@ class RenderRequest:
             raise ProtocolError(f"a request is no JSON ({error}): {line[:200]!r}") from None
         if not isinstance(message, dict) or message.get("type") != "render":
             raise ProtocolError(f"expected a 'render' request, got {line[:200]!r}")
+        message.setdefault("sample_counts", False)
         kinds = {field.name: field.type for field in dataclasses.fields(RenderRequest)}
         for key, kind in kinds.items():
             if not isinstance(message.get(key), kind):

@@ -47,7 +47,7 @@ def _answer(request, builder, renderer):
                              f"{SPEC_VERSIONS}")
         builder.build(request.spec, request.meshes, request.textures)
         built = time.perf_counter()
-        renderer.render(request.spec["render"], request.output, request.frame_id)
+        renderer.render(request.spec["render"], request.output, request.frame_id, request.sample_counts)
         if builder.make_sharp():  # the lens disturbs all passes: labels come from a pinhole
             once = {**request.spec["render"], "samples": 1, "adaptive": None, "denoise": "off"}
             renderer.render(once, sharp_output(request.output), request.frame_id)

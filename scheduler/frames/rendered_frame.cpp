@@ -17,7 +17,7 @@ fs::path rendered_passes(const fs::path& folder) { return folder / "rendered.exr
 fs::path sharp_passes(const fs::path& rendered) { return rendered.string() + ".sharp"; }
 
 Result<FramePasses> read_rendered_frame(const FrameSpec& spec, const std::string& frame_id,
-                                        const fs::path& rendered) {
+                                        const fs::path& rendered, bool sample_counts) {
   const PassPlan plan = plan_passes(spec);
   PassExpectation expected;
   expected.frame_id = frame_id;
@@ -29,11 +29,14 @@ Result<FramePasses> read_rendered_frame(const FrameSpec& spec, const std::string
   for (const InstanceSpec& instance : spec.instances) {
     expected.max_instance_id = std::max(expected.max_instance_id, instance.id);
   }
+  expected.sample_counts = sample_counts;
   Result<FramePasses> passes = read_passes(rendered, expected);
   if (!passes || !plan.sharp_rendering) return passes;
+  expected.sample_counts = false;
   Result<FramePasses> sharp = read_passes(sharp_passes(rendered), expected);
   if (!sharp) return sharp;
   sharp->combined = std::move(passes->combined);
+  sharp->sample_shares = std::move(passes->sample_shares);
   sharp->pixel_hashes["combined"] = passes->pixel_hashes["combined"];
   return sharp;
 }

@@ -18,9 +18,11 @@ std::filesystem::path rendered_passes(const std::filesystem::path& folder);
 std::filesystem::path sharp_passes(const std::filesystem::path& rendered);
 
 /// The passes of a frame, each from the rendering that it comes from (plan/pass_plan.h): of the
-/// pixels that were rendered, RenderSettings::rendered_pixels. Errors: those of read_passes.
+/// pixels that were rendered, RenderSettings::rendered_pixels. `sample_counts`: whether they were
+/// asked for, too. Errors: those of read_passes.
 Result<FramePasses> read_rendered_frame(const FrameSpec& spec, const std::string& frame_id,
-                                        const std::filesystem::path& rendered);
+                                        const std::filesystem::path& rendered,
+                                        bool sample_counts = false);
 
 /// The same passes with the pixels of the whole image: where nothing was rendered they are black,
 /// of no instance, and infinitely far. Their hashes stay those of what was rendered.

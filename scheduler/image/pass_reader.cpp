@@ -38,6 +38,7 @@ constexpr PassNames kCombined{"combined", "Combined", "Combined", "RGBA"};
 constexpr PassNames kIndex{"index", "IndexOB", "Object Index", "X"};
 constexpr PassNames kDepth{"depth", "Depth", "Depth", "Z"};
 constexpr PassNames kNormal{"normal", "Normal", "Normal", "XYZ"};
+constexpr PassNames kSamples{"sample count", "Debug Sample Count", "Debug Sample Count", "X"};
 
 struct Pass {
   const PassNames* names = nullptr;
@@ -145,6 +146,7 @@ Result<std::vector<Pass>> find_passes(const fs::path& path, const Imf::ChannelLi
   std::vector<const PassNames*> wanted = {&kCombined, &kIndex};
   if (expected.depth) wanted.push_back(&kDepth);
   if (expected.normal) wanted.push_back(&kNormal);
+  if (expected.sample_counts) wanted.push_back(&kSamples);
   std::vector<Pass> passes;
   for (const PassNames* names : wanted) {
     Result<Pass> pass = find_pass(path, channels, *names);
@@ -268,6 +270,10 @@ Result<FramePasses> read_passes(const fs::path& path, const PassExpectation& exp
       if (!ids) return forward_error(ids);
       frame.instance_ids = std::move(*ids);
       frame.pixel_hashes[pass.names->pass] = pixel_hash(frame.instance_ids, pass.component_list());
+      continue;
+    }
+    if (pass.names == &kSamples) {
+      frame.sample_shares = std::move(pass.pixels);
       continue;
     }
     frame.pixel_hashes[pass.names->pass] =

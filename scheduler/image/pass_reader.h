@@ -20,6 +20,7 @@ struct PassExpectation {
   bool normal = false;
   int max_instance_id = 0;    ///< a larger index is an error
   std::string frame_id = {};  ///< in the header's "Note"; empty: whatever is there
+  bool sample_counts = false;
 };
 
 struct FramePasses {
@@ -27,6 +28,9 @@ struct FramePasses {
   Image<std::uint16_t> instance_ids;   ///< 0 is background
   std::optional<Image<float>> depth;   ///< planar, metres along the viewing axis
   std::optional<Image<float>> normal;  ///< x, y, z in the camera's frame
+  /// Samples of a pixel over those of the pixel that had most; is of the rendering, not of the
+  /// frame, and has no hash.
+  std::optional<Image<float>> sample_shares;
   /// SHA-256 of each pass's pixels by name ("combined", "index", "depth", "normal"): see
   /// pixel_hash.h.
   std::map<std::string, std::string> pixel_hashes;

@@ -26,9 +26,8 @@ constexpr std::array<double, 3> kThresholds = {kCoarsestThreshold, 0.1, 0.025};
 constexpr std::array<int, 3> kDenoisedSettings = {1, 4, 16};
 
 // Committed constants, from results/error_vs_time: they rank choices of the same predicted error.
-// Adaptive sampling takes 0.6 to 1.4 of the time of as many plain samples as have the same error;
-// with fewer than these plain samples nothing could stop early.
-constexpr double kAdaptiveCost = 0.9;
+// A sample of adaptive sampling takes as long as a plain one; with fewer than these plain samples
+// nothing could stop early.
 constexpr int kAdaptiveFrom = 32;
 constexpr double kDenoiserCost = 2.0;  // samples that the denoiser takes as long as
 
@@ -113,10 +112,12 @@ class Calibrator {
   std::optional<double> noise(std::int64_t frame) const;
 
   ErrorModel model_of(Family family) const;
+  ErrorModel model_of_samples() const;
   bool has_errors() const;
   double scale() const;
   struct Models {
     ErrorModel plain, adaptive, denoised;
+    ErrorModel samples;  ///< that adaptive sampling takes, instead of an error
     double scale = 1.0;
   };
   struct Chosen {
@@ -124,6 +125,11 @@ class Calibrator {
     bool in_reach = false;  ///< as predicted, the bound is kept
   };
   Chosen choose(double scout, const Models& models) const;
+  /// Adaptive sampling in place of what was chosen, where that is cheaper.
+  void consider_adaptive(double scout, const Models& models, double cost, Chosen& chosen) const;
+  double margin(const Models& models, const ErrorModel& model) const {
+    return models.scale * std::exp(normal_quantile(wish_.share) * model.spread());
+  }
 
   QualityWish wish_;
   ErrorBound bound_;
@@ -134,6 +140,7 @@ class Calibrator {
   std::map<std::int64_t, Pictures> pilots_;
   std::map<std::int64_t, std::array<std::optional<Picture>, 2>> scouts_;  ///< until both are there
   std::map<std::int64_t, double> noise_;                                  ///< by frame
+  std::map<std::int64_t, std::map<double, double>> samples_;  ///< mean, of pilots by threshold
   std::string denoiser_failure_;
   std::string failure_;  ///< the first
   double pilots_cpu_s_ = 0.0;
@@ -173,6 +180,9 @@ void Calibrator::take(std::size_t number, Result<ProbedFrame> probed) {
   }
   const bool scout = purpose.use == Use::kScoutA || purpose.use == Use::kScoutB;
   (scout ? scouts_cpu_s_ : pilots_cpu_s_) += probed->cpu_s;
+  if (purpose.family == Family::kAdaptive) {
+    samples_[frame][purpose.setting] = probed->mean_samples;
+  }
   if (!scout) {
     pilots_.at(frame)[purpose] = std::move(probed->picture);
     return;
@@ -213,6 +223,17 @@ ErrorModel Calibrator::model_of(Family family) const {
   return ErrorModel(observations);
 }
 
+ErrorModel Calibrator::model_of_samples() const {
+  std::vector<Observation> observations;
+  for (const auto& [frame, by_threshold] : samples_) {
+    const std::optional<double> scout = noise(frame);
+    for (const auto& [threshold, samples] : by_threshold) {
+      if (scout) observations.push_back({*scout, threshold, samples});
+    }
+  }
+  return ErrorModel(observations);
+}
+
 /// Whether any pilot's error is known, be it 0.
 bool Calibrator::has_errors() const {
   return std::any_of(pilots_.begin(), pilots_.end(), [&](const auto& pilot) {
@@ -239,12 +260,9 @@ double Calibrator::scale() const {
 }
 
 Calibrator::Chosen Calibrator::choose(double scout, const Models& models) const {
-  const double z = normal_quantile(wish_.share);
-  const auto margin = [&](const ErrorModel& model) {
-    return models.scale * std::exp(z * model.spread());
-  };
   const auto samples_for = [&](const ErrorModel& model) {
-    return setting_for(model, scout, bound_.max_error, margin(model), 1.0, 4.0 * most_, false);
+    return setting_for(model, scout, bound_.max_error, margin(models, model), 1.0, 4.0 * most_,
+                       false);
   };
   const double plain_samples = samples_for(models.plain);
   Chosen chosen{plain(std::min(most_, rounded_samples(plain_samples))), plain_samples <= most_};
@@ -257,22 +275,30 @@ Calibrator::Chosen Calibrator::choose(double scout, const Models& models) const 
       cost = rounded + kDenoiserCost;
     }
   }
-  const bool may_stop_early = models.adaptive.is_usable() && plain_samples >= kAdaptiveFrom;
-  if (may_stop_early && chosen.in_reach && kAdaptiveCost * plain_samples < cost) {
-    const double threshold =
-        setting_for(models.adaptive, scout, bound_.max_error, margin(models.adaptive),
-                    kFinestThreshold, kCoarsestThreshold, true);
-    const double predicted = models.adaptive.predict(scout, threshold) * margin(models.adaptive);
-    if (predicted <= bound_.max_error * (1.0 + 1e-6)) {
-      chosen.choice = adaptive(rounded_threshold(threshold));
-    }
+  if (chosen.in_reach && plain_samples >= kAdaptiveFrom) {
+    consider_adaptive(scout, models, cost, chosen);
   }
   return chosen;
 }
 
+void Calibrator::consider_adaptive(double scout, const Models& models, double cost,
+                                   Chosen& chosen) const {
+  if (!models.adaptive.is_usable() || !models.samples.is_usable()) return;
+  const double allowance = margin(models, models.adaptive);
+  const double threshold =
+      rounded_threshold(setting_for(models.adaptive, scout, bound_.max_error, allowance,
+                                    kFinestThreshold, kCoarsestThreshold, true));
+  const double predicted = models.adaptive.predict(scout, threshold) * allowance;
+  const double samples =
+      std::clamp<double>(models.samples.predict(scout, threshold), kAdaptiveFrom, most_);
+  if (predicted <= bound_.max_error * (1.0 + 1e-6) && samples < cost) {
+    chosen.choice = adaptive(threshold);
+  }
+}
+
 Result<Calibration> Calibrator::finish() const {
   const Models models{model_of(Family::kPlain), model_of(Family::kAdaptive),
-                      model_of(Family::kDenoised), scale()};
+                      model_of(Family::kDenoised), model_of_samples(), scale()};
   if (!has_errors()) {
     return fail(ErrorKind::kRender, "no pilot frame could be rendered to calibrate the quality{}{}",
                 failure_.empty() ? "" : ": ", failure_);

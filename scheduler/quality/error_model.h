@@ -1,5 +1,6 @@
 // Predicts how wrong a frame comes out from how noisy a cheap look at it is: fitted to a few pilot
-// frames of the same campaign, of which both are known.
+// frames of the same campaign, of which both are known. How many samples adaptive sampling takes is
+// predicted like an error.
 #pragma once
 
 #include <cstddef>

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/philox.h"
+#include "quality/sample_counts.h"
 #include "quality/side_renderer.h"
 
 namespace seedframe {
@@ -26,8 +27,14 @@ class ProbeClient : public SideClient {
   Status rendered(std::int64_t job, const SideFrame& frame) override {
     Result<Image<std::uint8_t>> display = color_.apply(frame.passes.combined, frame.spec.image);
     if (!display) return forward_error(display);
-    tell(job, ProbedFrame{{frame.passes.combined, std::move(*display)}, frame.timings.cpu_s});
+    const int samples = frame.spec.render.samples;
+    const double mean =
+        frame.passes.sample_shares ? mean_samples(*frame.passes.sample_shares, samples) : samples;
+    tell(job, ProbedFrame{{frame.passes.combined, std::move(*display)}, mean, frame.timings.cpu_s});
     return {};
+  }
+  bool wants_sample_counts(std::int64_t job) const override {
+    return probes_[static_cast<std::size_t>(job)].choice.adaptive.threshold > 0.0;
   }
   void failed(std::int64_t job, const std::string& why) override {
     tell(job, fail(ErrorKind::kRender, "{}", why.substr(0, why.find('\n'))));

@@ -25,6 +25,7 @@ struct Probe {
 
 struct ProbedFrame {
   Picture picture;
+  double mean_samples = 0.0;  ///< that a pixel had
   double cpu_s = 0.0;
 };
 

@@ -63,6 +63,7 @@ class SideRun : private RenderClient {
         *frame, task.rendered,
         [this](const std::string& sha256) { return scratch_ / (sha256 + ".mesh"); });
     if (!request) return forward_error(request);
+    request->sample_counts = client_.wants_sample_counts(job.frame);
     tasks_[job] = std::move(task);
     return std::move(*request);
   }
@@ -76,7 +77,8 @@ class SideRun : private RenderClient {
   }
 
   Status judge(const FrameJob& job, const RenderTimings& timings, Task task) {
-    Result<FramePasses> passes = read_rendered_frame(task.spec, task.id, task.rendered);
+    Result<FramePasses> passes = read_rendered_frame(task.spec, task.id, task.rendered,
+                                                     client_.wants_sample_counts(job.frame));
     std::error_code ignored;
     fs::remove(task.rendered, ignored);
     fs::remove(sharp_passes(task.rendered), ignored);

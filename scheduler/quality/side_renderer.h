@@ -31,6 +31,8 @@ class SideClient {
   virtual ~SideClient() = default;
   /// An error fails the job.
   virtual Result<ExpandedFrame> frame(std::int64_t job) = 0;
+  /// Whether its passes are to have sample_shares.
+  virtual bool wants_sample_counts(std::int64_t /*job*/) const { return false; }
   /// An error ends all.
   virtual Status rendered(std::int64_t job, const SideFrame& frame) = 0;
   /// A job that could not be rendered.

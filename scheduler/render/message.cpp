@@ -54,12 +54,13 @@ std::string encode_render_message(const FrameJob& job, const RenderRequest& requ
   // The spec is JSON already; reading it again would cost more than sending it.
   const auto replace = Json::error_handler_t::replace;
   return fmt::format(
-      R"({{"type":"render","frame":{},"attempt":{},"frame_id":{},"output":{},"meshes":{},"textures":{},"spec":{}}})"
+      R"({{"type":"render","frame":{},"attempt":{},"frame_id":{},"output":{},"meshes":{},"textures":{}{},"spec":{}}})"
       "\n",
       job.frame, job.attempt, Json(request.frame_id).dump(),
       Json(request.output.string()).dump(-1, ' ', false, replace),
       path_table(request.meshes).dump(-1, ' ', false, replace),
-      path_table(request.textures).dump(-1, ' ', false, replace), request.spec);
+      path_table(request.textures).dump(-1, ' ', false, replace),
+      request.sample_counts ? R"(,"sample_counts":true)" : "", request.spec);
 }
 
 Result<WorkerMessage> parse_worker_message(std::string_view line) {

@@ -21,6 +21,7 @@ struct RenderRequest {
   std::filesystem::path output;                           ///< EXR to write; its folder exists
   std::map<std::string, std::filesystem::path> meshes;    ///< SHA-256 -> mesh buffer
   std::map<std::string, std::filesystem::path> textures;  ///< SHA-256 -> image file
+  bool sample_counts = false;  ///< the file is to say how many samples pixels had
 };
 
 /// Where the time of a rendered frame went, in seconds.

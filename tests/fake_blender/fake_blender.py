@@ -136,7 +136,7 @@ def answer(request, wishes, rendered):
     if fault != "no_file":
         frame_id = "0" * 64 if fault == "other_frame" else request["frame_id"]
         dependencies = [str(DEPENDENCIES[name](rendered)) for name in wishes.get("depends_on", [])]
-        data = exr_bytes(*draw(request["spec"], fault, dependencies), frame_id)
+        data = exr_bytes(*draw(request["spec"], fault, dependencies, request.get("sample_counts")), frame_id)
         pathlib.Path(request["output"]).write_bytes(
             data[:len(data) // 2] if fault == "half_exr" else data)
     render_s = 0.002
@@ -147,7 +147,7 @@ def answer(request, wishes, rendered):
             "attempt": attempt + (fault == "wrong_attempt"), "build_s": 0.001, "render_s": render_s, "cpu_s": 0.003}
 
 
-def draw(spec, fault=None, dependencies=()):
+def draw(spec, fault=None, dependencies=(), sample_counts=False):
     """(width, height, channels) of the frame; channels are (name, array) in the order of an EXR."""
     import numpy  # late: it takes longer to load than many tests take
 
@@ -191,6 +191,8 @@ def draw(spec, fault=None, dependencies=()):
         layers.append(("Depth.Z", depth.astype("<f4")))
     if render["normal"]:
         layers += [(f"Normal.{c}", normal[..., i].astype("<f4")) for i, c in enumerate("XYZ")]
+    if sample_counts:  # no pixel needs more than the others
+        layers.append(("Debug Sample Count.X", numpy.ones(index.shape, "<f4")))
     return width, height, sorted((f"ViewLayer.{name}", pixels) for name, pixels in layers)
 
 

@@ -51,6 +51,21 @@ class PassReader : public testing::Test {
   std::filesystem::path path_ = folder_ / "passes.exr";
 };
 
+TEST_F(PassReader, ReadsSampleCountsWhereTheyAreAskedForAndHashesThemNever) {
+  ExrFile file = blender_exr();
+  file.fill("ViewLayer.Debug Sample Count.X", Imf::FLOAT, 0.25F);
+  const auto without = read(file);
+  ASSERT_TRUE(without) << without.error().message;
+  EXPECT_FALSE(without->sample_shares);
+  PassExpectation expected = kAllPasses;
+  expected.sample_counts = true;
+  const auto with = read(file, expected);
+  ASSERT_TRUE(with) << with.error().message;
+  EXPECT_EQ(with->sample_shares->at(1, 2, 0), 0.25F);
+  EXPECT_EQ(with->pixel_hashes, without->pixel_hashes);
+  EXPECT_THAT(error_of(blender_exr(), expected), HasSubstr("the sample count pass is missing"));
+}
+
 TEST_F(PassReader, ReadsEveryPassWithRowZeroOnTop) {
   ExrFile file = blender_exr();
   file.at("ViewLayer.Normal.X", 1, 2) = -0.5F;

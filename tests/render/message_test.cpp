@@ -30,6 +30,14 @@ TEST(Message, ARenderRequestIsOneLineOfJson) {
                         {"textures", {{"def", "/textures/def.png"}}}}));
 }
 
+TEST(Message, AsksForSampleCountsOnlyWhereTheyAreWanted) {
+  RenderRequest request;
+  request.spec = "{}";
+  EXPECT_FALSE(Json::parse(encode_render_message({0, 1}, request)).contains("sample_counts"));
+  request.sample_counts = true;
+  EXPECT_EQ(Json::parse(encode_render_message({0, 1}, request))["sample_counts"], true);
+}
+
 TEST(Message, EmptyTablesAreObjects) {
   const Json json = Json::parse(encode_render_message({0, 1}, {"{}", "id", "/x", {}, {}}));
   EXPECT_TRUE(json["meshes"].is_object());

@@ -28,6 +28,10 @@ class RenderRequestTest(unittest.TestCase):
     def test_ignores_keys_that_it_does_not_know(self):
         RenderRequest.parse(json.dumps({**REQUEST, "later": 1}).encode())
 
+    def test_asks_for_sample_counts_only_where_it_says_so(self):
+        self.assertFalse(RenderRequest.parse(json.dumps(REQUEST).encode()).sample_counts)
+        self.assertTrue(RenderRequest.parse(json.dumps({**REQUEST, "sample_counts": True}).encode()).sample_counts)
+
     def test_refuses_anything_else(self):
         for bad in (b"", b"{", b"[]", b'"render"', b'{"type": "stop"}'):
             with self.assertRaises(ProtocolError, msg=bad):

@@ -85,6 +85,23 @@ TEST_F(RealBlenderLevers, ChangeThePictureOnlyAndRepeat) {
   }
 }
 
+TEST_F(RealBlenderLevers, SampleCountsAreOnePassMoreAndChangeNoOther) {
+  specs[0] = balls();
+  specs[0].render.samples = 256;
+  specs[0].render.adaptive = {0.02, 16};
+  specs[1] = specs[2] = specs[0];
+  specs[2].render.adaptive = {};
+  counted = {1, 2};
+  ASSERT_TRUE(render({0, 1, 2, 0}, 1)) << testing::PrintToString(failures);
+  EXPECT_EQ(passes[1].pixel_hashes, passes[0].pixel_hashes);
+  ASSERT_TRUE(passes[1].sample_shares && passes[2].sample_shares);
+  const std::vector<float>& adaptive = passes[1].sample_shares->values;
+  EXPECT_EQ(*std::max_element(adaptive.begin(), adaptive.end()), 1.0F);
+  EXPECT_LE(*std::min_element(adaptive.begin(), adaptive.end()), 0.5F);
+  const std::vector<float>& plain = passes[2].sample_shares->values;
+  EXPECT_EQ(*std::min_element(plain.begin(), plain.end()), 1.0F);
+}
+
 TEST_F(RealBlenderLevers, HolesNeedTransparentBounces) {
   FrameSpec spec = ball();
   spec.materials[0].textures["alpha"] = add_texture(0, 0, 0);  // all of it is a hole

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -199,14 +200,16 @@ class RealBlender : public testing::Test, public RenderClient {
     request.output = folder / "passes # 100%.exr";  // Blender must take nothing of it for a pattern
     request.meshes = meshes;
     request.textures = textures;
+    request.sample_counts = counted.contains(job.frame);
     return request;
   }
   void started(const FrameJob&, int) override {}
   void rendered(const FrameJob& job, const RenderTimings&, int) override {
     const RenderSettings& settings = specs.at(job.frame).render;
     const PixelRect size = settings.rendered_pixels();
-    auto read = read_passes(folder / "passes # 100%.exr",
-                            {size.width, size.height, settings.depth, settings.normal, 32767, {}});
+    PassExpectation expected{size.width, size.height, settings.depth, settings.normal, 32767, {}};
+    expected.sample_counts = counted.contains(job.frame);
+    auto read = read_passes(folder / "passes # 100%.exr", expected);
     const std::filesystem::path sharp_file = folder / "passes # 100%.exr.sharp";
     if (std::filesystem::exists(sharp_file)) {
       auto in_focus = read_passes(
@@ -228,6 +231,7 @@ class RealBlender : public testing::Test, public RenderClient {
   std::map<std::string, std::filesystem::path> meshes, textures;
   std::string smooth, flat, halves;
   std::map<std::int64_t, FrameSpec> specs;
+  std::set<std::int64_t> counted;  ///< frames whose samples are to be told
   std::map<std::int64_t, FramePasses> passes;
   std::map<std::int64_t, FramePasses> sharp;  ///< of frames with depth of field
   std::map<std::int64_t, std::string> failures;
