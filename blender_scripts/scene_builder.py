@@ -12,6 +12,7 @@ from mathutils import Matrix
 
 import blender_versions
 from image_cache import ImageCache
+from kept_values import put
 from material_pool import MaterialPool
 from mesh_cache import MeshCache
 from world_builder import WorldBuilder
@@ -59,23 +60,20 @@ class SceneBuilder:
         focal_x, focal_y = spec["focal_px"]
         width, height = render["width"], render["height"]
         lens_mm = focal_x * _SENSOR_MM / width
-        if lens_mm < 1.0:  # Blender would clamp it without a word
-            raise ValueError(f"focal length of {focal_x} px is below 1/36 of the width")
         camera = self._camera.data
-        camera.lens = lens_mm
-        # Pixels that are not square make the two focal lengths differ; neither aspect may be below 1.
-        self.scene.render.pixel_aspect_x = max(1.0, focal_y / focal_x)
-        self.scene.render.pixel_aspect_y = max(1.0, focal_x / focal_y)
         center_x, center_y = spec["center_px"]
-        camera.shift_x = ((width - 1) / 2 - center_x) / width
-        camera.shift_y = (center_y - (height - 1) / 2) / width * focal_x / focal_y
-        camera.clip_start = spec["clip_start_m"]
-        camera.clip_end = spec["clip_end_m"]
+        put(camera, lens=lens_mm,
+            shift_x=((width - 1) / 2 - center_x) / width,
+            shift_y=(center_y - (height - 1) / 2) / width * focal_x / focal_y,
+            clip_start=spec["clip_start_m"], clip_end=spec["clip_end_m"])
+        # Pixels that are not square make the two focal lengths differ; neither aspect may be below 1.
+        put(self.scene.render, pixel_aspect_x=max(1.0, focal_y / focal_x),
+            pixel_aspect_y=max(1.0, focal_x / focal_y))
         camera.dof.use_dof = spec["aperture_radius_m"] > 0.0
         if camera.dof.use_dof:
             camera.dof.focus_object = None
-            camera.dof.focus_distance = spec["focus_distance_m"]
-            camera.dof.aperture_fstop = 0.001 * lens_mm / (2.0 * spec["aperture_radius_m"])
+            put(camera.dof, focus_distance=spec["focus_distance_m"],
+                aperture_fstop=0.001 * lens_mm / (2.0 * spec["aperture_radius_m"]))
             camera.dof.aperture_blades = 0
             camera.dof.aperture_ratio = 1.0
 
@@ -138,10 +136,9 @@ class SceneBuilder:
         if kind in ("point", "spot"):
             light.shadow_soft_size = spec["radius_m"]
         if kind == "spot":
-            light.spot_size = spec["angle_rad"]
-            light.spot_blend = spec["blend"]
+            put(light, spot_size=spec["angle_rad"], spot_blend=spec["blend"])
         if kind == "sun":
-            light.angle = spec["angle_rad"]
+            put(light, angle=spec["angle_rad"])
         if kind == "area":
             light.shape = "RECTANGLE"
             light.size = spec["width_m"]

@@ -14,6 +14,24 @@ namespace {
 constexpr long long kLargestSide = 16384;  // of an image, pixels
 constexpr long long kMostSamples = 1 << 20;
 
+// Blender takes numbers beyond these limits of its own and renders with the limit, without a word.
+constexpr long long kMostMinSamples = 4096;
+constexpr double kLeastFilterPx = 0.01, kMostFilterPx = 10.0;
+constexpr double kMostThreshold = 1.0;  // of adaptive sampling, and of lights
+constexpr double kMostClamp = 1e8;
+constexpr double kMostFilterGlossy = 10.0;
+
+double read_within(SectionReader& section, const char* key, double fallback, double least,
+                   double most) {
+  const std::size_t errors_before = section.errors().size();
+  const double value = section.positive(key, fallback);
+  if (section.errors().size() > errors_before || (value >= least && value <= most)) return value;
+  section.errors().add(
+      section.node().find(key)->place(),
+      fmt::format("expected a number from {} to {}, found {}", least, most, value));
+  return fallback;
+}
+
 /// The minimum must be named: Cycles' own, chosen by the threshold, means that nothing stops before
 /// 80 samples at 0.01.
 AdaptiveSampling read_adaptive(SectionReader& render, int samples) {
@@ -23,8 +41,8 @@ AdaptiveSampling read_adaptive(SectionReader& render, int samples) {
   SectionReader section(*node, render.errors());
   section.require("threshold");
   section.require("min_samples");
-  adaptive.threshold = section.positive("threshold", 1.0);
-  adaptive.min_samples = static_cast<int>(section.integer("min_samples", 1, 1, kMostSamples));
+  adaptive.threshold = read_within(section, "threshold", 1.0, 0.0, kMostThreshold);
+  adaptive.min_samples = static_cast<int>(section.integer("min_samples", 1, 1, kMostMinSamples));
   section.refuse_other_keys();
   if (adaptive.min_samples > samples) {
     render.errors().add(node->place(),
@@ -50,10 +68,11 @@ BounceLimits read_bounces(SectionReader& render, int most) {
   return bounces;
 }
 
-double read_limit(SectionReader& render, const char* key, double fallback) {
+double read_limit(SectionReader& render, const char* key, double fallback, double most) {
   const double limit = render.constant(key, fallback);
-  if (limit >= 0.0) return limit;
-  render.errors().add(render.node().find(key)->place(), "expected 0 (no limit) or more");
+  if (limit >= 0.0 && limit <= most) return limit;
+  render.errors().add(render.node().find(key)->place(),
+                      fmt::format("expected 0 (off) to {}, found {}", most, limit));
   return fallback;
 }
 
@@ -72,9 +91,9 @@ int read_texture_limit(SectionReader& render) {
 RenderLevers read_levers(SectionReader& render, int max_bounces) {
   RenderLevers levers;
   levers.bounces = read_bounces(render, max_bounces);
-  levers.light_threshold = read_limit(render, "light_threshold", 0.0);
-  levers.clamp_direct = read_limit(render, "clamp_direct", 0.0);
-  levers.filter_glossy = read_limit(render, "filter_glossy", 0.0);
+  levers.light_threshold = read_limit(render, "light_threshold", 0.0, kMostThreshold);
+  levers.clamp_direct = read_limit(render, "clamp_direct", 0.0, kMostClamp);
+  levers.filter_glossy = read_limit(render, "filter_glossy", 0.0, kMostFilterGlossy);
   levers.texture_limit_px = read_texture_limit(render);
   levers.path_guiding = render.flag("path_guiding", false);
   return levers;
@@ -136,8 +155,9 @@ RenderConfig read_render(SectionReader& campaign, Diagnostics& errors) {
   render.samples = static_cast<int>(section.integer("samples", render.samples, 1, kMostSamples));
   render.max_bounces =
       static_cast<int>(section.integer("max_bounces", render.max_bounces, 0, 1024));
-  render.filter_width_px = section.positive("filter_width_px", render.filter_width_px);
-  render.clamp_indirect = read_limit(section, "clamp_indirect", render.clamp_indirect);
+  render.filter_width_px = read_within(section, "filter_width_px", render.filter_width_px,
+                                       kLeastFilterPx, kMostFilterPx);
+  render.clamp_indirect = read_limit(section, "clamp_indirect", render.clamp_indirect, kMostClamp);
   render.levers = read_levers(section, render.max_bounces);
   render.region = read_region(section, render.width, render.height);
   for (const std::string& pass : section.texts("passes")) {

@@ -9,6 +9,24 @@
 namespace seedframe {
 namespace {
 
+/// Blender takes numbers beyond these limits, and renders with the limit without a word.
+void check_focal_lengths(const CompiledCamera& camera, const RenderSettings& render,
+                         const CameraSpec& spec, EvaluationContext& context) {
+  const auto& [fx, fy] = spec.focal_px;
+  // The sensor is 36 mm wide in Blender, and no lens is below 1 mm.
+  if (fx < render.width / 36.0) {
+    context.report(camera.fov_deg ? camera.fov_deg->place() : camera.focal_px.front().place(),
+                   "the view is too wide: Blender's lenses reach 173.6 degrees (a focal length of "
+                   "1/36 of the image's width)");
+  }
+  constexpr double kMostAspect = 200.0;
+  if (fx > kMostAspect * fy || fy > kMostAspect * fx) {
+    context.report(camera.focal_px.back().place(),
+                   "the pixels are too far from square: one focal length must be at most 200 times "
+                   "the other, which is what Blender renders");
+  }
+}
+
 void set_intrinsics(const CompiledCamera& camera, const RenderSettings& render, CameraSpec& spec,
                     EvaluationContext& context) {
   if (!camera.focal_px.empty()) {
@@ -20,20 +38,16 @@ void set_intrinsics(const CompiledCamera& camera, const RenderSettings& render, 
     const double fov = within(*camera.fov_deg, 0.01, 179.0, "fov_deg", context);
     spec.focal_px.fill(0.5 * render.width / portable::tan(0.5 * portable::radians(fov)));
   }
-  // The sensor is 36 mm wide in Blender, and it clamps a lens below 1 mm without a word.
-  if (spec.focal_px[0] < render.width / 36.0) {
-    context.report(camera.fov_deg ? camera.fov_deg->place() : camera.focal_px.front().place(),
-                   "the view is too wide: Blender's lenses reach 173.6 degrees (a focal length of "
-                   "1/36 of the image's width)");
-  }
   spec.center_px = {0.5 * (render.width - 1), 0.5 * (render.height - 1)};
   if (camera.center_px) {
     for (std::size_t i = 0; i < 2; ++i) {
       spec.center_px[i] = (*camera.center_px)[i].evaluate(context);
     }
   }
-  spec.clip_start_m = positive(camera.clip_start_m, "clip_start_m", context);
+  constexpr double kLeastClip = 1e-6;  // where Blender begins to see
+  spec.clip_start_m = at_least(camera.clip_start_m, kLeastClip, false, "clip_start_m", context);
   spec.clip_end_m = at_least(camera.clip_end_m, spec.clip_start_m, true, "clip_end_m", context);
+  check_focal_lengths(camera, render, spec, context);
 }
 
 /// The lens behind an f-stop: its aperture is its focal length over the f-stop, and it is as long

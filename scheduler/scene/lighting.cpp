@@ -55,7 +55,9 @@ LightSpec one_light(const CompiledLight& light, const Eigen::Vector3d& offset,
     spec.radius_m = not_negative(light.radius_m, "radius_m", context);
   }
   if (light.type == LightType::kSun || light.type == LightType::kSpot) {
-    spec.angle_rad = portable::radians(within(light.angle_deg, 0, 180, "angle_deg", context));
+    // A narrower spot would be one of a degree in Blender, without a word.
+    const double least = light.type == LightType::kSpot ? 1.0 : 0.0;
+    spec.angle_rad = portable::radians(within(light.angle_deg, least, 180, "angle_deg", context));
   }
   if (light.type == LightType::kSpot) spec.blend = within(light.blend, 0, 1, "blend", context);
   if (light.type == LightType::kArea) {

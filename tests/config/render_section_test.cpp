@@ -74,6 +74,21 @@ TEST(RenderSection, LeversOutOfTheirRangeAreRefused) {
   EXPECT_THAT(refusal_of_rendering("texture_limit_px: 64"), HasSubstr("found 64"));
 }
 
+TEST(RenderSection, WhatBlenderWouldLimitWithoutAWordIsRefused) {
+  EXPECT_THAT(refusal_of_rendering("filter_width_px: 11"),
+              HasSubstr("render.filter_width_px: expected a number from 0.01 to 10, found 11"));
+  EXPECT_THAT(refusal_of_rendering("filter_width_px: 0.001"), HasSubstr("found 0.001"));
+  EXPECT_THAT(refusal_of_rendering("samples: 9999, adaptive: {threshold: 0.1, min_samples: 5000}"),
+              HasSubstr("render.adaptive.min_samples: expected a whole number from 1 to 4096"));
+  EXPECT_THAT(refusal_of_rendering("adaptive: {threshold: 2, min_samples: 4}"),
+              HasSubstr("render.adaptive.threshold: expected a number from 0 to 1, found 2"));
+  EXPECT_THAT(refusal_of_rendering("light_threshold: 2"),
+              HasSubstr("render.light_threshold: expected 0 (off) to 1, found 2"));
+  EXPECT_THAT(refusal_of_rendering("filter_glossy: 11"), HasSubstr("expected 0 (off) to 10"));
+  EXPECT_THAT(refusal_of_rendering("clamp_direct: 1e9"), HasSubstr("expected 0 (off) to 1e+08"));
+  EXPECT_THAT(refusal_of_rendering("clamp_indirect: 1e9"), HasSubstr("render.clamp_indirect"));
+}
+
 TEST(RenderSection, PathGuidingPromisesNothing) {
   EXPECT_THAT(refusal_of_rendering("path_guiding: true"), HasSubstr("determinism: none"));
   EXPECT_TRUE(read_rendering("path_guiding: true}\ndeterminism: none\nimage: {gamma: 1")

@@ -41,6 +41,20 @@ TEST(Lens, FocalLengthsMayDifferByAxis) {
               HasSubstr("camera.focal_px[1]: focal_px must be above 0, found -1"));
 }
 
+TEST(Lens, FocalLengthsAreAtMost200TimesEachOther) {
+  EXPECT_EQ(camera_of("distance_m: 1, focal_px: [30000, 150]").focal_px[0], 30000.0);
+  EXPECT_THAT(scene_error(with_camera("distance_m: 1, focal_px: [150, 30001]")),
+              HasSubstr("camera.focal_px[1]: the pixels are too far from square"));
+  EXPECT_THAT(scene_error(with_camera("distance_m: 1, focal_px: [30001, 150]")),
+              HasSubstr("at most 200 times the other"));
+}
+
+TEST(Lens, NothingNearerThanAMicrometreIsAskedFor) {
+  EXPECT_EQ(camera_of("distance_m: 1, clip_start_m: 1e-6").clip_start_m, 1e-6);
+  EXPECT_THAT(scene_error(with_camera("distance_m: 1, clip_start_m: 9e-7")),
+              HasSubstr("camera.clip_start_m: clip_start_m must be at least 1e-06"));
+}
+
 TEST(Lens, ThePrincipalPointIsTheMiddleOrWhatIsGiven) {
   EXPECT_EQ(camera_of("distance_m: 1").center_px, (std::array<double, 2>{99.5, 49.5}));
   EXPECT_EQ(camera_of("distance_m: 1, center_px: [0, -20.5]").center_px,

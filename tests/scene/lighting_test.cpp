@@ -71,8 +71,10 @@ TEST(Lumens, AreRefusedWhereTheyMeanNothing) {
               HasSubstr("power and lumens exclude each other"));
   EXPECT_THAT(scene_error(with_light("lumens: 3W")),
               HasSubstr("this is in W, but lm is needed here"));
-  EXPECT_THAT(scene_error(with_light("type: spot, lumens: 5, angle_deg: 0")),
+  EXPECT_THAT(scene_error(with_light("type: spot, lumens: 1e308, angle_deg: 1")),
               HasSubstr("lights.l.lumens: this takes more watts than can be computed with"));
+  EXPECT_THAT(scene_error(with_light("type: spot, power: 5, angle_deg: 0.5")),
+              HasSubstr("lights.l.angle_deg: angle_deg must be from 1 to 180, found 0.5"));
 }
 
 TEST(Power, TakesWatts) { EXPECT_EQ(light_of("power: 40W").power, 40.0); }
