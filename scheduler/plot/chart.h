@@ -36,6 +36,7 @@ struct Chart {
   Axis x;
   Axis y;
   std::vector<Series> series;  ///< the last one is drawn on top
+  bool legend_inside = false;  ///< at the upper left of the plot, not beside it
 };
 
 /// Where an axis has its lines, and what stands there.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 
@@ -25,6 +26,7 @@ constexpr double kFontPx = 13.0;
 constexpr double kTitlePx = 16.0;
 constexpr double kMarginLeft = 74.0, kMarginTop = 52.0, kMarginBottom = 58.0, kMarginRight = 18.0;
 constexpr double kLegend = 190.0;
+constexpr double kBetweenNumbers = 6.0;  // of an axis: those without room are left out
 constexpr ChartColor kInk = {0.15, 0.15, 0.15};
 constexpr ChartColor kFaint = {0.88, 0.88, 0.88};
 constexpr ChartColor kStrong = {0.72, 0.72, 0.72};
@@ -34,20 +36,18 @@ using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 enum class Align { kLeft, kMiddle, kRight };
 
-/// One chart on one surface.
+/// One chart, from the origin of a surface on.
 class Drawing {
  public:
   Drawing(cairo_t* cairo, const Chart& chart, const ChartSize& size)
       : cairo_(cairo),
         chart_(chart),
-        right_(size.width_px - (has_legend() ? kLegend : kMarginRight)),
+        right_(size.width_px - (has_legend() && !chart.legend_inside ? kLegend : kMarginRight)),
         bottom_(size.height_px - kMarginBottom),
         x_(ticks_for(values(0), chart.x.logarithmic)),
         y_(ticks_for(values(1), chart.y.logarithmic)) {}
 
   void draw(const ChartSize& size) {
-    set_color({1.0, 1.0, 1.0});
-    cairo_paint(cairo_);
     cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     draw_axes();
     text(chart_.title, (kMarginLeft + right_) / 2.0, kMarginTop - 18.0, Align::kMiddle, kTitlePx);
@@ -100,15 +100,20 @@ class Drawing {
     cairo_set_source_rgb(cairo_, color[0], color[1], color[2]);
   }
 
-  void text(const std::string& words, double x, double y, Align align, double size = kFontPx,
-            const ChartColor& color = kInk) {
-    set_color(color);
+  double width_of(const std::string& words, double size = kFontPx) {
     cairo_set_font_size(cairo_, size);
     cairo_text_extents_t extents;
     cairo_text_extents(cairo_, words.c_str(), &extents);
+    return extents.x_advance;
+  }
+
+  void text(const std::string& words, double x, double y, Align align, double size = kFontPx,
+            const ChartColor& color = kInk) {
+    set_color(color);
+    const double width = width_of(words, size);
     const double shift = align == Align::kLeft    ? 0.0
-                         : align == Align::kRight ? -extents.x_advance
-                                                  : -extents.x_advance / 2.0;
+                         : align == Align::kRight ? -width
+                                                  : -width / 2.0;
     cairo_move_to(cairo_, x + shift, y);
     cairo_show_text(cairo_, words.c_str());
   }
@@ -122,10 +127,14 @@ class Drawing {
   }
 
   void draw_axes() {
+    double written_to = 0.0;  // where the last number ends
     for (std::size_t i = 0; i < x_.at.size(); ++i) {
       const double x = x_px(x_.at[i]);
       rule(x, kMarginTop, x, bottom_, !x_.text[i].empty());
-      if (!x_.text[i].empty()) text(x_.text[i], x, bottom_ + 20.0, Align::kMiddle);
+      const double half = width_of(x_.text[i]) / 2.0;
+      if (x_.text[i].empty() || x - half < written_to + kBetweenNumbers) continue;
+      text(x_.text[i], x, bottom_ + 20.0, Align::kMiddle);
+      written_to = x + half;
     }
     for (std::size_t i = 0; i < y_.at.size(); ++i) {
       const double y = y_px(y_.at[i]);
@@ -213,7 +222,7 @@ class Drawing {
     double y = kMarginTop + 10.0;
     for (const Series& series : chart_.series) {
       if (series.name.empty()) continue;
-      const double x = right_ + 16.0;
+      const double x = (chart_.legend_inside ? kMarginLeft : right_) + 16.0;
       if (series.line) {
         stroke_line(series, {{x, y - 4.5}, {x + 22.0, y - 4.5}});
       }
@@ -238,17 +247,31 @@ Status failure(const fs::path& path, cairo_status_t status) {
 }  // namespace
 
 Status write_chart(const Chart& chart, const fs::path& path, const ChartSize& size) {
+  return write_charts({chart}, 1, path, size);
+}
+
+Status write_charts(const std::vector<Chart>& charts, int columns, const fs::path& path,
+                    const ChartSize& size) {
   constexpr int kPixels = 2;  // of a PNG, for each of the chart's
   const bool svg = path.extension() == ".svg";
   assert(svg || path.extension() == ".png");
+  const int width = columns * size.width_px;
+  const int height = (static_cast<int>(charts.size()) + columns - 1) / columns * size.height_px;
   const Surface surface(
-      svg ? cairo_svg_surface_create(path.c_str(), size.width_px, size.height_px)
-          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, kPixels * size.width_px,
-                                       kPixels * size.height_px),
+      svg ? cairo_svg_surface_create(path.c_str(), width, height)
+          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, kPixels * width, kPixels * height),
       cairo_surface_destroy);
   const Context cairo(cairo_create(surface.get()), cairo_destroy);
   if (!svg) cairo_scale(cairo.get(), kPixels, kPixels);
-  Drawing(cairo.get(), chart, size).draw(size);
+  cairo_set_source_rgb(cairo.get(), 1.0, 1.0, 1.0);
+  cairo_paint(cairo.get());
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    const auto [row, column] = std::div(static_cast<int>(i), columns);
+    cairo_save(cairo.get());
+    cairo_translate(cairo.get(), column * size.width_px, row * size.height_px);
+    Drawing(cairo.get(), charts[i], size).draw(size);
+    cairo_restore(cairo.get());
+  }
   if (Status drawn = failure(path, cairo_status(cairo.get())); !drawn) return drawn;
   if (!svg) return failure(path, cairo_surface_write_to_png(surface.get(), path.c_str()));
   cairo_surface_finish(surface.get());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "base/error.h"
 #include "plot/chart.h"
@@ -19,5 +20,9 @@ struct ChartSize {
 /// the machine's sans-serif font. kEnvironment error: the file cannot be written.
 Status write_chart(const Chart& chart, const std::filesystem::path& path,
                    const ChartSize& size = {});
+
+/// Several charts as one picture, `columns` of them in a row, each of `size`; like write_chart.
+Status write_charts(const std::vector<Chart>& charts, int columns,
+                    const std::filesystem::path& path, const ChartSize& size);
 
 }  // namespace seedframe

@@ -96,6 +96,28 @@ TEST(ChartFile, ChangesWithThePointsAlone) {
   EXPECT_FALSE(read_file(folder / "a.png").value() == read_file(folder / "b.png").value());
 }
 
+/// A big-endian number in a PNG's header.
+unsigned png_number(const std::string& bytes, std::size_t at) {
+  unsigned number = 0;
+  for (std::size_t i = at; i < at + 4; ++i) {
+    number = 256 * number + static_cast<unsigned char>(bytes.at(i));
+  }
+  return number;
+}
+
+TEST(ChartFile, ManyChartsStandInRows) {
+  const ScratchFolder folder;
+  Chart inside = some_chart();
+  inside.legend_inside = true;
+  ASSERT_TRUE(write_charts({some_chart(), inside, some_chart()}, 2, folder / "a.png", {300, 200}));
+  const std::string all = read_file(folder / "a.png").value();
+  EXPECT_EQ(png_number(all, 16), 2 * 2 * 300U) << "two pixels for each of the chart's";
+  EXPECT_EQ(png_number(all, 20), 2 * 2 * 200U);
+  ASSERT_TRUE(
+      write_charts({some_chart(), some_chart(), some_chart()}, 2, folder / "b.png", {300, 200}));
+  EXPECT_FALSE(read_file(folder / "b.png").value() == all) << "the legend is elsewhere";
+}
+
 TEST(ChartFile, ThatCannotBeWrittenIsAnError) {
   const ScratchFolder folder;
   for (const char* name : {"missing/a.svg", "missing/a.png"}) {
