@@ -17,6 +17,7 @@ _HEADER_BYTES = 24
 class MeshCache:
     def __init__(self, max_triangles=MAX_TRIANGLES):
         self._cache = BoundedCache(max_triangles, bpy.data.meshes.remove)
+        self._origins = {}  # sha256 -> what is at 0 in Blender's mesh, where that is not the mesh's 0
 
     def next_frame(self):
         self._cache.next_frame()
@@ -25,13 +26,33 @@ class MeshCache:
         self._cache.trim()
 
     def get(self, sha256, paths):
-        return self._cache.get(sha256, lambda: _load(sha256, paths))
+        return self._cache.get(sha256, lambda: self._load(sha256, paths))
+
+    def origin(self, sha256):
+        """The point of a mesh's own space, metres, that is at 0 in Blender's mesh."""
+        return self._origins.get(sha256, (0.0, 0.0, 0.0))
+
+    def _load(self, sha256, paths):
+        if sha256 not in paths:
+            raise ValueError(f"mesh {sha256} is in the frame spec but not in the request's table")
+        buffer = read_buffer(paths[sha256])
+        origin = far_middle(buffer["positions"])
+        if origin.any():
+            buffer["positions"] = (buffer["positions"].reshape(-1, 3) - origin).ravel()
+            self._origins[sha256] = tuple(float(x) for x in origin)
+        return _make(sha256, buffer)
 
 
-def _load(sha256, paths):
-    if sha256 not in paths:
-        raise ValueError(f"mesh {sha256} is in the frame spec but not in the request's table")
-    buffer = read_buffer(paths[sha256])
+def far_middle(positions):
+    """The middle of a mesh that is far from its origin, whose float32 coordinates tell little but that; else 0. Such
+    coordinates minus the middle are without rounding (Sterbenz). The twin does the same."""
+    points = positions.reshape(-1, 3)
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle = (low + high) / numpy.float32(2)
+    return numpy.where(abs(middle) > 8 * (high - low).max(), middle, numpy.float32(0))
+
+
+def _make(sha256, buffer):
     mesh = bpy.data.meshes.new(sha256[:16])
     try:
         _fill(mesh, buffer)

@@ -91,7 +91,7 @@ class SceneBuilder:
         item = self._instances[index]
         item.data = mesh
         item.pass_index = spec["id"]
-        item.matrix_parent_inverse = _matrix(spec["camera_from_object"])
+        item.matrix_parent_inverse = _matrix(spec["camera_from_object"], self._meshes.origin(spec["mesh"]))
         hidden_from = spec["hidden_from"]
         for kind in ("camera", "diffuse", "glossy", "transmission", "shadow"):
             setattr(item, f"visible_{kind}", kind not in hidden_from)
@@ -179,8 +179,12 @@ class _ObjectPool:
                 self._objects[self._linked].data = data
 
 
-def _matrix(numbers):
-    return Matrix((numbers[0:4], numbers[4:8], numbers[8:12], numbers[12:16]))
+def _matrix(numbers, origin=(0.0, 0.0, 0.0)):
+    """A row-major map, from a frame whose 0 is at `origin`."""
+    rows = [numbers[4 * row:4 * row + 4] for row in range(4)]
+    for row in rows[:3]:
+        row[3] += sum(factor * x for factor, x in zip(row, origin))
+    return Matrix(rows)
 
 
 def _empty_the_file():

@@ -51,7 +51,7 @@ class HitPoints {
     HitPoint hit{normal.dot(to_corner) / along, turned.dot(second) / along,
                  -turned.dot(first) / along, along > 0.0};
     constexpr double kFar = 1e-3;
-    const double found = packet.rays.ray.tfar[lane];
+    const double found = packet.depth(lane);
     if (!(std::abs(hit.depth - found) <= kFar * found)) {
       hit = {found, packet.rays.hit.u[lane], packet.rays.hit.v[lane], hit.from_behind};
     }

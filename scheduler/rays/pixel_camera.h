@@ -16,6 +16,8 @@ struct PixelCamera {
   std::array<double, 2> center_px{};
   double clip_start_m = 0.0;
   double clip_end_m = 0.0;
+  /// Depth at which rays begin, and from which they are measured in float32: no surface is nearer.
+  double ray_start_m = 0.0;
 
   /// Directions of rays, whose z is -1: x of a column's, y of a row's.
   float ray_x(int column) const {

@@ -1,6 +1,7 @@
 // Eight neighbouring pixels' rays at a time: as many as AVX2 has lanes. Included by sources only.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -20,11 +21,16 @@ struct RayPacket {
   alignas(32) std::array<std::int32_t, kLanes> wanted{};  ///< -1: to be traced; 0: not
   RTCRayHit8 rays{};
 
-  explicit RayPacket(const PixelCamera& camera) : far_(static_cast<float>(camera.clip_end_m)) {
+  explicit RayPacket(const PixelCamera& camera)
+      : start_m_(camera.ray_start_m),
+        start_(static_cast<float>(start_m_)),
+        far_(static_cast<float>(std::max(0.0, camera.clip_end_m - start_m_))) {
+    const double near = std::max(0.0, camera.clip_start_m - start_m_);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      // z of the direction is -1, so the ray's parameter is the depth, and the clips are its ends.
+      // z of the direction is -1, so the ray's parameter is the depth from where it begins, and the
+      // clips are its ends.
       rays.ray.dir_z[lane] = -1.0F;
-      rays.ray.tnear[lane] = static_cast<float>(camera.clip_start_m);
+      rays.ray.tnear[lane] = static_cast<float>(near);
       rays.ray.mask[lane] = kEveryInstance;
     }
   }
@@ -33,6 +39,8 @@ struct RayPacket {
     wanted[lane] = -1;
     rays.ray.dir_x[lane] = ray_x;
     rays.ray.dir_y[lane] = ray_y;
+    rays.ray.org_x[lane] = ray_x * start_;
+    rays.ray.org_y[lane] = ray_y * start_;
   }
 
   /// At pixels `step` apart. Lanes beyond `right` or `bottom` are not wanted.
@@ -66,6 +74,9 @@ struct RayPacket {
     return static_cast<int>(rays.hit.instID[0][lane]);
   }
 
+  /// Of what the lane hits: planar, metres.
+  double depth(std::size_t lane) const { return start_m_ + rays.ray.tfar[lane]; }
+
   /// Finds out what hits anything at all, which is cheaper, by the same arithmetic. Only instances
   /// that have one of the bits of `mask` can be hit.
   void find_any_hits(RTCScene scene, unsigned mask = kEveryInstance) {
@@ -83,6 +94,8 @@ struct RayPacket {
   bool hits(std::size_t lane) const { return wanted[lane] != 0 && rays.ray.tfar[lane] < 0.0F; }
 
  private:
+  double start_m_;
+  float start_;
   float far_;
 };
 

@@ -88,6 +88,7 @@ int RayScene::first_hit(int x, int y, const std::array<double, 2>& offset_px) co
 bool RayScene::hides(const Eigen::Vector3d& point, double tolerance_m, int transparent) const {
   const double distance = point.norm();
   RTCRayHit ray{};
+  ray.ray.org_z = static_cast<float>(scene_->camera.ray_start_m);
   ray.ray.dir_x = static_cast<float>(point.x());
   ray.ray.dir_y = static_cast<float>(point.y());
   ray.ray.dir_z = static_cast<float>(point.z());
@@ -136,7 +137,9 @@ RayImage RayScene::trace(const TraceOptions& options) const {
                                               y + static_cast<int>(lane / kColumns));
         const int hit = packet.hit(lane);
         image.instance[pixel] = hit;
-        if (options.depth) image.depth[pixel] = hit < 0 ? kNoDepth : packet.rays.ray.tfar[lane];
+        if (options.depth) {
+          image.depth[pixel] = hit < 0 ? kNoDepth : static_cast<float>(packet.depth(lane));
+        }
         if (!points_wanted || hit < 0) continue;
         const HitPoint point = points.at(packet, lane);
         if (portable_depth) image.depth[pixel] = static_cast<float>(point.depth);

@@ -10,7 +10,7 @@
 namespace seedframe {
 
 struct RayScene::Scene {
-  PixelCamera camera;
+  PixelCamera camera;  ///< with the start of its rays
   PixelRays pixels;
   std::vector<RayInstance> instances;
   std::vector<ProjectedBox> boxes;      ///< of all instances

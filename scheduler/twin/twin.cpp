@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <new>
 #include <unordered_map>
 
@@ -13,6 +14,29 @@ namespace {
 
 /// Of all kept meshes; about 150 bytes each.
 constexpr std::size_t kMostTriangles = 20'000'000;
+
+/// Where vertices are far from their mesh's origin, nearly all bits of a float32 would tell how
+/// far: there the middle of the mesh, elsewhere 0. Such vertices minus their middle are float32
+/// numbers without rounding (Sterbenz, "Floating-point computation", 1974). The worker does the
+/// same.
+Eigen::Vector3d far_middle(const BoundingBox& box) {
+  constexpr double kFar = 8.0;  // as a multiple of the mesh's size
+  const double far = kFar * box.size().maxCoeff();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<float>(box.centre()[axis]);
+    if (std::abs(at) > far) middle[axis] = at;
+  }
+  return middle;
+}
+
+void move(Mesh& mesh, const Eigen::Vector3d& by) {
+  for (auto& position : mesh.positions) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      position[axis] += static_cast<float>(by[static_cast<Eigen::Index>(axis)]);
+    }
+  }
+}
 
 Image<float> depth_image(const RayImage& traced) {
   Image<float> depth(traced.width, traced.height);
@@ -34,11 +58,12 @@ PixelCamera pixel_camera(const FrameSpec& spec) {
           spec.camera.center_px, spec.camera.clip_start_m, spec.camera.clip_end_m};
 }
 
-Twin::Twin(RayScene scene, RayImage image, std::vector<int> ids, bool with_depth)
+Twin::Twin(RayScene scene, RayImage image, Names names, bool with_depth)
     : instance_ids(image.width, image.height),
       scene_(std::move(scene)),
       image_(std::move(image)),
-      ids_(std::move(ids)) {
+      ids_(std::move(names.ids)),
+      object_boxes_(std::move(names.object_boxes)) {
   std::transform(
       image_.instance.begin(), image_.instance.end(), instance_ids.values.begin(),
       [&](std::int32_t hit) {
@@ -104,15 +129,17 @@ void Twin::keep_only(const PixelRect& region) {
 Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers, Passes passes) {
   try {
     std::vector<RayInstance> instances;
-    std::vector<int> ids;
+    Twin::Names names;
     instances.reserve(spec.instances.size());
-    ids.reserve(spec.instances.size());
     for (const InstanceSpec& instance : spec.instances) {
       auto found = mesh(instance.mesh, buffers);
       if (!found) return forward_error(found);
-      instances.push_back({std::move(*found), Eigen::Affine3d(instance.camera_from_object.matrix()),
-                           !instance.hidden_from.camera});
-      ids.push_back(instance.id);
+      const auto& [mesh, origin] = *found;
+      Eigen::Affine3d camera_from_mesh(instance.camera_from_object.matrix());
+      camera_from_mesh.translate(origin);
+      instances.push_back({mesh, camera_from_mesh, !instance.hidden_from.camera});
+      names.ids.push_back(instance.id);
+      names.object_boxes.push_back({mesh->box().low + origin, mesh->box().high + origin});
     }
     trim();
     RayScene scene(pixel_camera(spec), std::move(instances));
@@ -121,7 +148,7 @@ Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers
                                   .portable_depth = asked && spec.render.depth,
                                   .normals = asked && spec.render.normal,
                                   .threads = threads_});
-    Twin twin(std::move(scene), std::move(image), std::move(ids), asked && spec.render.depth);
+    Twin twin(std::move(scene), std::move(image), std::move(names), asked && spec.render.depth);
     if (spec.render.region) twin.keep_only(*spec.render.region);
     return twin;
   } catch (const std::bad_alloc&) {
@@ -131,13 +158,13 @@ Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers
   }
 }
 
-Result<std::shared_ptr<const RayMesh>> TwinTracer::mesh(const std::string& sha256,
-                                                        const MeshBuffers& buffers) {
+Result<TwinTracer::MovedMesh> TwinTracer::mesh(const std::string& sha256,
+                                               const MeshBuffers& buffers) {
   const std::lock_guard lock(mutex_);
   Entry& entry = meshes_[sha256];
-  if (!entry.mesh) {
+  if (!entry.moved.mesh) {
     const auto buffer = buffers.find(sha256);
-    const auto read =
+    auto read =
         buffer == buffers.end()
             ? Result<Mesh>(fail(ErrorKind::kInput, "mesh {} is in the frame spec, but not given",
                                 sha256.substr(0, 12)))
@@ -146,11 +173,13 @@ Result<std::shared_ptr<const RayMesh>> TwinTracer::mesh(const std::string& sha25
       meshes_.erase(sha256);
       return forward_error(read);
     }
-    entry.mesh = std::make_shared<const RayMesh>(*read);
-    triangles_ += entry.mesh->triangle_count();
+    entry.moved.origin = far_middle(bounding_box(*read));
+    move(*read, -entry.moved.origin);
+    entry.moved.mesh = std::make_shared<const RayMesh>(*read);
+    triangles_ += entry.moved.mesh->triangle_count();
   }
   entry.last_used = ++uses_;
-  return entry.mesh;
+  return entry.moved;
 }
 
 void TwinTracer::trim() {
@@ -159,7 +188,7 @@ void TwinTracer::trim() {
     const auto oldest = std::min_element(
         meshes_.begin(), meshes_.end(),
         [](const auto& a, const auto& b) { return a.second.last_used < b.second.last_used; });
-    if (oldest->second.mesh) triangles_ -= oldest->second.mesh->triangle_count();
+    if (const auto& mesh = oldest->second.moved.mesh) triangles_ -= mesh->triangle_count();
     meshes_.erase(oldest);
   }
 }

@@ -40,19 +40,23 @@ class Twin {
   bool grazes(int row, int column, std::uint16_t id) const;
 
   /// Of an instance's mesh, in object space, metres.
-  const BoundingBox& object_box(std::size_t instance) const {
-    return scene_.instances()[instance].mesh->box();
-  }
+  const BoundingBox& object_box(std::size_t instance) const { return object_boxes_[instance]; }
 
  private:
   friend class TwinTracer;
-  Twin(RayScene scene, RayImage image, std::vector<int> ids, bool with_depth);
+  /// What is known of each instance, by its index.
+  struct Names {
+    std::vector<int> ids;
+    std::vector<BoundingBox> object_boxes;
+  };
+  Twin(RayScene scene, RayImage image, Names names, bool with_depth);
   /// Nothing is seen in the pixels outside.
   void keep_only(const PixelRect& region);
 
   RayScene scene_;
   RayImage image_;
-  std::vector<int> ids_;  ///< by the instance's index
+  std::vector<int> ids_;
+  std::vector<BoundingBox> object_boxes_;
 };
 
 /// Traces frames, and keeps the trees of their meshes for the next. Safe to use from several
@@ -71,12 +75,16 @@ class TwinTracer {
   Result<Twin> trace(const FrameSpec& spec, const MeshBuffers& buffers, Passes passes);
 
  private:
-  struct Entry {
+  /// A mesh, moved so that `origin` (object space, metres) is at 0.
+  struct MovedMesh {
     std::shared_ptr<const RayMesh> mesh;
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  };
+  struct Entry {
+    MovedMesh moved;
     std::uint64_t last_used = 0;
   };
-  Result<std::shared_ptr<const RayMesh>> mesh(const std::string& sha256,
-                                              const MeshBuffers& buffers);
+  Result<MovedMesh> mesh(const std::string& sha256, const MeshBuffers& buffers);
   /// Drops what was used least recently.
   void trim();
 

@@ -121,6 +121,40 @@ TEST(RayScene, WhatIsBehindAWallIsNotVisibleButInTheImage) {
   EXPECT_EQ(counts.visible, 0.0);
 }
 
+TEST(RayScene, WhatIsFarAwayIsSeenAsSharplyAsWhatIsNear) {
+  // A pixel is 0.05 m wide there, and the step between float32 numbers 0.03 m.
+  PixelCamera camera = kCamera;
+  camera.focal_px = {1e7, 1e7};
+  camera.clip_end_m = 1e6;
+  const RayScene scene(camera, {ball_at(0.5, -0.2, -5e5)});
+  int wrong = 0;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      const bool hit = meets_sphere(camera, x, y, {0.5, -0.2, -5e5}, 1.0);
+      wrong += hit != (scene.first_hit(x, y) == 0) ? 1 : 0;
+    }
+  }
+  EXPECT_LE(wrong, 8) << "as near: the rim is a polygon's";
+  TraceOptions options;
+  options.depth = true;
+  EXPECT_NEAR(scene.trace(options).depth[scene.trace(options).index(90, 63)], 5e5 - 1.0, 0.04);
+}
+
+TEST(RayScene, FarThingsAreClippedToo) {
+  PixelCamera camera = kCamera;
+  camera.focal_px = {1e4, 1e4};
+  const RayInstance far_ball = ball_at(0, 0, -500);
+  const double disc = RayScene(camera, {far_ball}).count(0, kAllPixels).whole;
+  EXPECT_NEAR(disc, 400 * portable::kPi, 12.0) << "its radius is 20 pixels";
+  camera.clip_end_m = 400.0;
+  EXPECT_EQ(RayScene(camera, {far_ball}).count(0, kAllPixels).whole, 0.0);
+  camera.clip_end_m = 1000.0;
+  camera.clip_start_m = 500.5;  // within the ball: its far side is seen, of a radius of 0.87 m
+  EXPECT_NEAR(RayScene(camera, {far_ball}).count(0, kAllPixels).whole, 0.75 * disc, 12.0);
+  camera.clip_start_m = 502.0;
+  EXPECT_EQ(RayScene(camera, {far_ball}).count(0, kAllPixels).whole, 0.0);
+}
+
 TEST(RayScene, WhatIsBehindTheCameraIsNowhere) {
   const RayScene scene(kCamera, {ball_at(0, 0, 5)});
   const PixelCounts counts = scene.count(0, kAllPixels);

@@ -49,6 +49,35 @@ TEST(Twin, DepthIsPlanarAndNormalsPointToTheCamera) {
   for (int c = 0; c < 3; ++c) EXPECT_EQ(twin->normal->at(5, 5, c), 0.0F);
 }
 
+TEST(Twin, VerticesFarFromTheirMeshsOriginCostNothing) {
+  constexpr float kFar = 65536.0F;  // a cube's corners stay float32 numbers there
+  Mesh mesh = example_cube();
+  for (auto& position : mesh.positions) position[0] += kFar;
+  const auto bytes = std::make_shared<const std::string>(mesh_buffer(mesh));
+  MeshBuffers buffers = cube().buffers;
+  buffers["far"] = bytes;
+  FrameSpec spec = two_cubes();
+  spec.render.depth = spec.render.normal = true;
+  for (InstanceSpec& instance : spec.instances) {
+    instance.camera_from_object.rotate(
+        Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.3, 0.5, 0.2).normalized()));
+  }
+  FrameSpec moved = spec;
+  for (InstanceSpec& instance : moved.instances) {
+    instance.mesh = "far";
+    instance.camera_from_object.translate(Eigen::Vector3d(-kFar, 0, 0));
+  }
+  TwinTracer tracer;
+  const auto near = tracer.trace(spec, buffers, kAsked);
+  const auto far = tracer.trace(moved, buffers, kAsked);
+  ASSERT_TRUE(near && far);
+  EXPECT_EQ(far->instance_ids.values, near->instance_ids.values);
+  for (std::size_t i = 0; i < near->depth->values.size(); ++i) {
+    ASSERT_FLOAT_EQ(far->depth->values[i], near->depth->values[i]) << i;
+  }
+  EXPECT_EQ(far->object_box(0).low, Eigen::Vector3d(kFar - 1.0, -1, -1));
+}
+
 TEST(Twin, KnowsWhatAPixelGrazes) {
   FrameSpec spec = empty_spec();
   // Its right edge is 5 thousandths of a pixel to the right of the centre of column 90.

@@ -3,6 +3,7 @@
 
 #include "mesh/mesh_buffer.h"
 #include "rays/ray_scene.h"
+#include "tests/mesh/example_meshes.h"
 #include "tests/render/blender/real_blender_fixture.h"
 
 namespace seedframe {
@@ -64,6 +65,43 @@ TEST_F(RealBlender, ThePrincipalPointAndTheTwoFocalLengthsAreInPixels) {
   const FramePasses picture = render_one(spec);
   EXPECT_EQ(picture.instance_ids.at(4, 37), 1) << "x = 30 + 60/8 = 37.5, y = 10 - 45/8 = 4.4";
   EXPECT_EQ(picture.instance_ids.at(21, 15), 2) << "x = 30 - 15, y = 10 + 11.25";
+}
+
+TEST_F(RealBlender, WhatBlenderWouldLimitWithoutAWordIsRefused) {
+  for (int frame = 0; frame < 6; ++frame) specs[frame] = ball();
+  specs[0].camera.focal_px = {1.0, 1.0};
+  specs[1].camera.focal_px = {60.0, 60.0 * 201};
+  specs[2].camera.focal_px = {60.0 * 201, 60.0};
+  specs[3].camera.clip_start_m = 1e-7;
+  specs[4].lights = {{.kind = LightKind::kSpot, .angle_rad = 0.01}};
+  specs[5].camera.focal_px = {60.0 * 200, 60.0};  // the limit itself is kept
+  ASSERT_TRUE(render({0, 1, 2, 3, 4, 5}, 1));
+  using ::testing::HasSubstr;
+  EXPECT_THAT(failures[0], HasSubstr("Blender cannot render lens = 0.75: it makes 1 of it"));
+  EXPECT_THAT(failures[1], HasSubstr("pixel_aspect_x = 201: it makes 200 of it"));
+  EXPECT_THAT(failures[2], HasSubstr("pixel_aspect_y = 201"));
+  EXPECT_THAT(failures[3], HasSubstr("clip_start = 1e-07: it makes 1e-06 of it"));
+  EXPECT_THAT(failures[4], HasSubstr("spot_size = 0.01"));
+  EXPECT_EQ(failures[5], "");
+}
+
+TEST_F(RealBlender, VerticesFarFromTheirMeshsOriginCostNothing) {
+  constexpr float kFar = 65536.0F;  // a cube's corners stay float32 numbers there
+  Mesh cube = example_cube();
+  const std::string near = add_mesh(mesh_buffer(cube));
+  for (auto& position : cube.positions) position[0] += kFar;
+  const std::string far = add_mesh(mesh_buffer(cube));
+  specs[0] = ball();
+  specs[0].instances = {instance("a/0", 1, near, {0, 0}, placed(0.5, 0.5, -4, 0.5, 0.7)),
+                        instance("b/0", 2, near, {0, 0}, placed(-1.0, -0.5, -4, 0.5, 0.3))};
+  specs[1] = specs[0];
+  for (InstanceSpec& each : specs[1].instances) {
+    each.mesh = far;
+    each.camera_from_object.translate(Eigen::Vector3d(-kFar, 0, 0));
+  }
+  ASSERT_TRUE(render({0, 1}, 1)) << testing::PrintToString(failures);
+  EXPECT_LE(different(passes[0].instance_ids, passes[1].instance_ids), 1) << "an edge may round";
+  EXPECT_GT(different(passes[0].instance_ids, Image<std::uint16_t>(48, 36)), 200);
 }
 
 TEST_F(RealBlender, EmbreeSeesWhatTheIndexPassShowsPixelByPixel) {
