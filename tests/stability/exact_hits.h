@@ -1,31 +1,26 @@
 // What a ray through a pixel's centre meets first, without rounding: by CGAL's exact kernel.
 #pragma once
 
-#include <optional>
+#include <array>
 #include <vector>
 
-#include "mesh/mesh_buffer.h"
 #include "spec/frame_spec.h"
 
 namespace seedframe {
 
+/// A triangle as the frame spec and the mesh's buffer have it, taken as they stand.
+struct ExactTriangle {
+  const InstanceSpec* instance = nullptr;
+  std::array<std::array<float, 3>, 3> object_corners{};
+};
+
 struct ExactHit {
-  int id = 0;               ///< of the instance; 0: nothing
-  bool tie = false;         ///< another instance is at exactly the same depth
-  bool on_an_edge = false;  ///< the ray meets an edge or a corner of the triangle
+  int triangle = -1;   ///< index of what is hit; -1: nothing
+  bool tie = false;    ///< another instance is at exactly the same depth
+  double depth = 0.0;  ///< planar, metres, rounded at the end
 };
 
-/// The frame's doubles and the meshes' floats are taken as they stand.
-class ExactScene {
- public:
-  ExactScene(const FrameSpec& spec, const MeshBuffers& buffers);
-  ~ExactScene();
-  ExactHit first_hit(int x, int y) const;
-
- private:
-  struct Triangles;
-  FrameSpec spec_;
-  std::unique_ptr<Triangles> triangles_;
-};
+ExactHit exact_first_hit(const CameraSpec& camera, int x, int y,
+                         const std::vector<ExactTriangle>& triangles);
 
 }  // namespace seedframe
