@@ -72,7 +72,7 @@ double read_limit(SectionReader& render, const char* key, double fallback, doubl
   const double limit = render.constant(key, fallback);
   if (limit >= 0.0 && limit <= most) return limit;
   render.errors().add(render.node().find(key)->place(),
-                      fmt::format("expected 0 (off) to {}, found {}", most, limit));
+                      fmt::format("expected 0 (off) to {:g}, found {:g}", most, limit));
   return fallback;
 }
 
