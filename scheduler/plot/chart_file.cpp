@@ -133,7 +133,8 @@ class Drawing {
       rule(x, kMarginTop, x, bottom_, !x_.text[i].empty());
       const double half = width_of(x_.text[i]) / 2.0;
       if (x_.text[i].empty() || x - half < written_to + kBetweenNumbers) continue;
-      text(x_.text[i], x, bottom_ + 20.0, Align::kMiddle);
+      const double in_picture = std::min(x, right_ + kMarginRight - half);
+      text(x_.text[i], in_picture, bottom_ + 20.0, Align::kMiddle);
       written_to = x + half;
     }
     for (std::size_t i = 0; i < y_.at.size(); ++i) {
