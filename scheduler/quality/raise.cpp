@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "quality/error_record.h"
+#include "quality/sample_counts.h"
 #include "quality/setting_steps.h"
 
 namespace seedframe {
@@ -71,9 +72,14 @@ std::optional<RenderChoice> raised_choice(const RenderChoice& choice, double err
   RenderChoice raised = choice;
   if (is_adaptive) {
     const double threshold = choice.adaptive.threshold * std::pow(ratio, -1.0 / powers.adaptive);
-    if (threshold < kFinestThreshold) return most;
+    // Of pixels that stop at the first look, the threshold says nothing: they need more samples.
+    const int first_look = choice.adaptive.min_samples + kSamplesBetweenLooks;
+    const double looks =
+        std::ceil(first_look * std::pow(ratio, 1.0 / powers.plain) / kSamplesBetweenLooks);
+    if (threshold < kFinestThreshold || looks * kSamplesBetweenLooks >= most_samples) return most;
     raised.samples = most_samples;
-    raised.adaptive.threshold = rounded_threshold(threshold);
+    raised.adaptive = {rounded_threshold(threshold),
+                       (static_cast<int>(looks) - 1) * kSamplesBetweenLooks};
     return raised;
   }
   const double power = is_denoised ? powers.denoised : powers.plain;
@@ -85,7 +91,8 @@ std::optional<RenderChoice> raised_choice(const RenderChoice& choice, double err
 
 std::string describe(const RenderChoice& choice) {
   if (choice.adaptive.threshold > 0.0) {
-    return fmt::format("adaptive sampling to {}", choice.adaptive.threshold);
+    return fmt::format("adaptive sampling to {}, at least {} samples", choice.adaptive.threshold,
+                       choice.adaptive.min_samples);
   }
   return fmt::format("{} samples{}", choice.samples,
                      choice.denoise == Denoise::kOff ? "" : ", denoised");

@@ -17,13 +17,14 @@ namespace seedframe {
 
 /// What a frame is rendered with next that had such an error, above the bound, with `choice`. How
 /// errors fall is from results/error_vs_time: those of plain samples with the root of their number,
-/// denoised ones with its fourth root, adaptive ones with the threshold to the power of 0.4. A
-/// tenth is added to what was measured. A frame that would need more than `most_samples` has so
-/// many, plain ones. Nothing: it had these.
+/// denoised ones with its fourth root, adaptive ones with the threshold to the power of 0.4,
+/// and where pixels stop at the first look as plain ones do: both are changed. A tenth is added to
+/// what was measured. A frame that would need more than `most_samples` has so many, plain ones.
+/// Nothing: it had these.
 std::optional<RenderChoice> raised_choice(const RenderChoice& choice, double error,
                                           const ErrorBound& bound, int most_samples);
 
-/// "16 samples", "adaptive sampling to 0.1", "4 samples, denoised".
+/// "16 samples", "adaptive sampling to 0.1, at least 16 samples", "4 samples, denoised".
 std::string describe(const RenderChoice& choice);
 
 struct Raise {

@@ -34,15 +34,19 @@ TEST(RaisedChoice, OfDenoisedFramesNeedsMoreOfThem) {
       << "beyond that a denoiser is not worth its bias";
 }
 
-TEST(RaisedChoice, OfAdaptiveSamplingIsAFinerThreshold) {
+TEST(RaisedChoice, OfAdaptiveSamplingIsAFinerThresholdAndALaterFirstLook) {
   const auto raised = raised_choice(adaptive(0.1), 5.0, kBound, kMost);
   ASSERT_TRUE(raised);
   EXPECT_EQ(raised->samples, kMost);
+  EXPECT_EQ(raised->adaptive.min_samples, 48)
+      << "looks at 64 instead of 32, 1.375² as many or more";
   EXPECT_LT(raised->adaptive.threshold, 0.1 / 2.0);
   EXPECT_GT(raised->adaptive.threshold, 0.1 / 4.0);
   EXPECT_EQ(raised->adaptive.threshold, rounded_threshold(raised->adaptive.threshold));
   EXPECT_LT(raised_choice(adaptive(0.1), 4.01, kBound, kMost)->adaptive.threshold, 0.1);
   EXPECT_EQ(raised_choice(adaptive(0.002), 8.0, kBound, kMost), plain(kMost));
+  EXPECT_EQ(raised_choice(adaptive(0.4), 16.0, kBound, kMost), plain(kMost))
+      << "its first look would be later than all samples";
 }
 
 TEST(RaisedChoice, NeverHasMoreThanTheMostSamples) {
