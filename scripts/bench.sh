@@ -2,12 +2,14 @@
 # The benchmarks, into results/: how fast configs are expanded, what the twin costs and where it agrees with Cycles, what submit costs above
 # a bare loop in Blender, a worker's memory over 1,000 frames, how fast annotations are written, what a large store costs, how fast an audit reads,
 # how long the program takes to start, how many frames an hour all of it makes beside BlenderProc, what a second of rendering buys,
-# whether a stated error is kept, what pictures of single objects cost, how costs grow with a scene, and whether forecasts come true. Takes about two and a half hours
+# whether a stated error is kept, what pictures of single objects cost, how costs grow with a scene, whether forecasts come true,
+# and what a detector that learns from the frames makes of their samples. Takes about two and a half hours
 # on two idle cores; on a busy machine longer, and then it measures the company.
 #
 #   scripts/bench.sh               all
 #   scripts/bench.sh NAME…         of error, quality, patches, scaling, forecast, expansion, twin, frame, stability, overhead, memory, export, store, audit, startup,
-#                                  determinism, throughput
+#                                  determinism, throughput, detector
+#   scripts/bench.sh detector-full the whole of results/detector, an hour, in place of a short version
 #   scripts/bench.sh quick         most of them, cut down to ten minutes in all, into build/quick/: does a change show?
 set -eu
 cd "$(dirname "$0")/.."
@@ -30,7 +32,7 @@ if [ "${1:-}" = quick ]; then
   build/release/seedframe bench error configs/parts.yaml -o $quick/error --width 96 --frames 1 --budget 60s || failed=1
   exit $failed
 fi
-[ $# -gt 0 ] || set -- error quality patches scaling forecast expansion twin frame stability overhead memory export store audit startup determinism throughput
+[ $# -gt 0 ] || set -- error quality patches scaling forecast expansion twin frame stability overhead memory export store audit startup determinism throughput detector
 failed=0
 for name in "$@"; do
   case $name in
@@ -58,6 +60,14 @@ for name in "$@"; do
     quality) tests/bench/quality.py --report results/quality/quality.md ;;
     startup) tests/bench/startup.py --report results/bench/startup.md ;;
     throughput) tests/bench/throughput.py --report results/bench/throughput.md ;;
+    detector) # the short version: ten minutes, one training with each dataset
+      scripts/torch_wheels.sh &&
+        venv/torch/bin/python tests/bench/detector/study.py --report results/detector/short
+      ;;
+    detector-full)
+      scripts/torch_wheels.sh &&
+        venv/torch/bin/python tests/bench/detector/study.py --full --report results/detector
+      ;;
     determinism)
       build/release/seedframe bench determinism -o results/determinism &&
         tests/bench/audit_demo.sh results/determinism/audit_demo.md

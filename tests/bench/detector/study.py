@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+"""How many samples are worth their time, to a detector and a classifier that learn from the frames? Makes results/detector/.
+
+The same scenes are rendered with 64 to 1 samples, plain and denoised; a small detector and a small patch classifier learn
+from each dataset, and are tested on converged frames of other scenes. Then again with as many frames as can be
+rendered in the same CPU time. Runs in venv/torch (scripts/torch_wheels.sh):
+
+    venv/torch/bin/python tests/bench/detector/study.py [--full] [--report DIR] [--work DIR] [--blender BLENDER]
+
+Without --full a short version of one training each, which tells that all works and little more. What a folder --work
+holds of an earlier run is not done again.
+"""
+
+import argparse
+import dataclasses
+import os
+import pathlib
+import pickle
+import sys
+import tempfile
+
+import numpy
+import torch
+
+from campaigns import HOME, Campaigns, Setting
+from classifier import test_classifier, trained_classifier
+from detector import test_detector, trained_detector
+from report import write_report
+from scores import Outcome, differences, scores_of, spread_of_seeds
+
+TRAIN_SEED, MORE_SEED, TEST_SEED = 101, 102, 103  # of the scenes
+STARTUP_FRAMES = 2
+
+
+@dataclasses.dataclass(frozen=True)
+class Study:
+    settings: tuple          # the first is what all are compared with
+    frames: int              # of each
+    budget_frames: int       # so many frames of the first setting cost what each dataset of the same time costs
+    budget_settings: tuple
+    test: Setting
+    test_frames: int
+    trainings: int           # with each dataset, of seeds of their own
+    detector_steps: int
+    classifier_steps: int
+
+
+FULL = Study(
+    settings=tuple(Setting(samples, denoised) for denoised in (False, True) for samples in (64, 16, 4, 2, 1)),
+    frames=120, budget_frames=32,
+    budget_settings=(Setting(64), Setting(16), Setting(4), Setting(1),
+                     Setting(16, True), Setting(4, True), Setting(1, True)),
+    test=Setting(512, threshold=0.02), test_frames=64, trainings=3, detector_steps=300, classifier_steps=250)
+QUICK = Study(
+    settings=(Setting(64), Setting(4), Setting(1), Setting(4, True)),
+    frames=48, budget_frames=24, budget_settings=(Setting(64), Setting(4), Setting(4, True)),
+    test=Setting(128, threshold=0.05), test_frames=32, trainings=1, detector_steps=200, classifier_steps=150)
+
+
+@dataclasses.dataclass
+class Rendered:
+    """A dataset, and what it cost."""
+    setting: Setting
+    frames: int
+    cpu_s: float
+    dataset: object
+
+
+class Bench:
+    def __init__(self, study, campaigns):
+        self.study = study
+        self.campaigns = campaigns
+        self.test, self.classes = self._test()
+        self.startup_s = self._startup_s()
+
+    def _test(self):
+        self.campaigns.render("test", self.study.test, TEST_SEED, self.study.test_frames)
+        return self.campaigns.load("test")
+
+    def _startup_s(self):
+        """CPU seconds of a submission that are not of its frames, from a short and a long one."""
+        short = self.campaigns.render("startup", Setting(1), TRAIN_SEED, STARTUP_FRAMES)
+        long = self.campaigns.render("1", Setting(1), TRAIN_SEED, self.study.frames)
+        return max(0.0, short - STARTUP_FRAMES * (long - short) / (self.study.frames - STARTUP_FRAMES))
+
+    def _rendered(self, name, setting, seed, frames):
+        seconds = self.campaigns.render(name, setting, seed, frames) - self.startup_s
+        dataset, _ = self.campaigns.load(name)
+        return Rendered(setting, frames, seconds, dataset)
+
+    def of_same_frames(self):
+        return {setting.name(): self._rendered(setting.name(), setting, TRAIN_SEED, self.study.frames)
+                for setting in self.study.settings}
+
+    def of_same_time(self, rendered):
+        """As many frames of each setting as cost what budget_frames of the first do: the first of those that there are,
+        or all of them and more."""
+        def per_frame(setting):
+            return rendered[setting.name()].cpu_s / self.study.frames
+        budget = self.study.budget_frames * per_frame(self.study.settings[0])
+        found = {}
+        for setting in self.study.budget_settings:
+            there = rendered[setting.name()]
+            frames = int(budget / per_frame(setting))
+            name = f"more-{setting.name()}"
+            if frames <= self.study.frames:
+                found[name] = Rendered(setting, frames, frames * per_frame(setting), there.dataset.first(frames))
+            else:
+                more = self._rendered(name, setting, MORE_SEED, frames - self.study.frames)
+                found[name] = Rendered(setting, frames, there.cpu_s + more.cpu_s, there.dataset.joined(more.dataset))
+        return found
+
+    def outcome(self, name, dataset, seed):
+        """Of one training, or that of an earlier run."""
+        file = self.campaigns.folder / f"{name}-trained-{seed}.pickle"
+        if not file.exists():
+            classes = len(self.classes)
+            detector = trained_detector(dataset, classes, self.study.detector_steps, seed)
+            classifier = trained_classifier(dataset, classes, self.study.classifier_steps, seed)
+            right = test_classifier(classifier, self.test)
+            frames = len(self.test.images)
+            outcome = Outcome(test_detector(detector, self.test, classes),
+                              numpy.bincount(self.test.patch_frames, right, minlength=frames),
+                              numpy.bincount(self.test.patch_frames, minlength=frames))
+            file.write_bytes(pickle.dumps(outcome))
+            told = ", ".join(f"{metric} {values[0]:.1f}" for metric, values in scores_of([outcome]).items())
+            print(f"{name}, training {seed}: {told}", file=sys.stderr, flush=True)
+        return pickle.loads(file.read_bytes())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--full", action="store_true", help="the whole study: about an hour of two cores")
+    parser.add_argument("--report", type=pathlib.Path, help="folder to write tables and charts to")
+    parser.add_argument("--work", type=pathlib.Path, help="keep datasets and trainings there (default: a folder that goes)")
+    parser.add_argument("--trainings", type=int, help="with each dataset")
+    parser.add_argument("--blender", default=f"python:{HOME}/venv/blender-4.5")
+    parser.add_argument("--program", type=pathlib.Path, default=HOME / "build/release/seedframe")
+    options = parser.parse_args()
+    study = FULL if options.full else QUICK
+    if options.trainings:
+        study = dataclasses.replace(study, trainings=options.trainings)
+    torch.set_num_threads(os.cpu_count())
+    torch.use_deterministic_algorithms(True)
+    with tempfile.TemporaryDirectory(prefix="seedframe-detector-") as scratch:
+        campaigns = Campaigns(options.program, options.blender, options.work or pathlib.Path(scratch))
+        bench = Bench(study, campaigns)
+        same_frames = bench.of_same_frames()
+        rendered = {**same_frames, **bench.of_same_time(same_frames)}
+        outcomes = {name: [] for name in rendered}
+        for seed in range(study.trainings):
+            for name, each in rendered.items():
+                outcomes[name].append(bench.outcome(name, each.dataset, seed))
+        write_report(options.report, study, campaigns, told(bench, rendered, outcomes),
+                     {**{name: each.dataset for name, each in same_frames.items()}, "test": bench.test})
+
+
+def told(bench, rendered, outcomes):
+    """All figures of the study, as JSON may have them."""
+    base = bench.study.settings[0].name()
+    scores = {name: scores_of(each) for name, each in outcomes.items()}
+    more = {name: each for name, each in outcomes.items() if name.startswith("more-")}
+    against = {**differences({name: each for name, each in outcomes.items() if name not in more}, base),
+               **(differences(more, f"more-{base}"))}
+    return {
+        "startup_cpu_s": bench.startup_s,
+        "test": {"frames": len(bench.test.images), "objects": int(sum(map(len, bench.test.boxes)))},
+        "spread_of_seeds": spread_of_seeds(list(scores.values())),
+        "datasets": [{"name": name, "samples": each.setting.samples, "denoised": each.setting.denoised,
+                      "same_time": name in more, "frames": each.frames, "cpu_s": each.cpu_s,
+                      "objects": int(sum(map(len, each.dataset.boxes))), "scores": scores[name],
+                      "against_first": against[name]} for name, each in rendered.items()]}
+
+
+if __name__ == "__main__":
+    main()
