@@ -5,7 +5,7 @@ import torch
 
 from training import as_input, batches, convolution, relit, seeded, train
 
-BATCH = 64
+BATCH = 32
 MOST_RATE = 4e-3
 
 
@@ -13,8 +13,8 @@ class Classifier(torch.nn.Module):
     def __init__(self, classes):
         super().__init__()
         self.layers = torch.nn.Sequential(
-            convolution(3, 24), torch.nn.MaxPool2d(2), convolution(24, 48), torch.nn.MaxPool2d(2), convolution(48, 96),
-            torch.nn.AdaptiveAvgPool2d(1), torch.nn.Flatten(), torch.nn.Linear(96, classes))
+            convolution(3, 16), torch.nn.MaxPool2d(2), convolution(16, 32), torch.nn.MaxPool2d(2), convolution(32, 64),
+            torch.nn.AdaptiveAvgPool2d(1), torch.nn.Flatten(), torch.nn.Linear(64, classes))
 
     def forward(self, images):
         return self.layers(images)

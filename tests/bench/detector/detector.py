@@ -7,7 +7,7 @@ from average_precision import match
 from boxes import STRIDE, boxes_of, mirrored, moved, targets
 from training import as_input, batches, convolution, relit, seeded, train
 
-BATCH = 16
+BATCH = 8
 MOST_RATE = 4e-3
 MOST_MOVE_PX = 8
 
@@ -21,8 +21,8 @@ class Detector(torch.nn.Module):
         self.at_8 = torch.nn.Sequential(convolution(32, 64, 2), convolution(64, 64))
         self.at_16 = torch.nn.Sequential(convolution(64, 96, 2), convolution(96, 96))
         self.up_8, self.side_8 = convolution(96, 48, size=1), convolution(64, 48, size=1)
-        self.up_4, self.side_4 = convolution(48, 48), convolution(32, 48, size=1)
-        self.head = torch.nn.Sequential(convolution(48, 48), convolution(48, 48))
+        self.up_4, self.side_4 = convolution(48, 32), convolution(32, 32, size=1)
+        self.head = convolution(32, 48)
         self.heat, self.sides = torch.nn.Conv2d(48, classes, 1), torch.nn.Conv2d(48, 4, 1)
         torch.nn.init.constant_(self.heat.bias, -4)  # few cells are the middle of something
 

@@ -46,15 +46,15 @@ class Study:
 
 
 FULL = Study(
-    settings=tuple(Setting(samples, denoised) for denoised in (False, True) for samples in (64, 16, 4, 2, 1)),
-    frames=120, budget_frames=32,
+    settings=(*(Setting(samples) for samples in (64, 16, 4, 2, 1)), *(Setting(samples, True) for samples in (16, 4, 2, 1))),
+    frames=80, budget_frames=20,
     budget_settings=(Setting(64), Setting(16), Setting(4), Setting(1),
-                     Setting(16, True), Setting(4, True), Setting(1, True)),
-    test=Setting(512, threshold=0.02), test_frames=64, trainings=3, detector_steps=300, classifier_steps=250)
+                     Setting(4, True), Setting(1, True)),
+    test=Setting(256, threshold=0.03), test_frames=48, trainings=3, detector_steps=360, classifier_steps=300)
 QUICK = Study(
     settings=(Setting(64), Setting(4), Setting(1), Setting(4, True)),
     frames=48, budget_frames=24, budget_settings=(Setting(64), Setting(4), Setting(4, True)),
-    test=Setting(128, threshold=0.05), test_frames=32, trainings=1, detector_steps=200, classifier_steps=150)
+    test=Setting(128, threshold=0.05), test_frames=32, trainings=1, detector_steps=300, classifier_steps=250)
 
 
 @dataclasses.dataclass
