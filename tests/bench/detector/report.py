@@ -13,6 +13,7 @@ from campaigns import LEAST_PIXELS, LEAST_VISIBLE, run
 
 NAMES = {"ap": "AP", "ap50": "AP at IoU 0.5", "top1": "top-1"}
 COLORS = {False: "#1f77b4", True: "#ff7f0e"}
+CPU_TICKS_S = (0.2, 0.5, 1, 2, 5)
 SHEET_SCALE = 2
 
 
@@ -29,7 +30,8 @@ def write_report(folder, study, campaigns, figures, datasets):
 
 
 def page(study, campaigns, figures):
-    same, more = ([each for each in figures["datasets"] if each["same_time"] == side] for side in (False, True))
+    same, more = (sorted((each for each in figures["datasets"] if each["same_time"] == side),
+                         key=lambda each: (each["denoised"], -each["samples"])) for side in (False, True))
     test = figures["test"]
     lines = [
         "# Samples against accuracy", "",
@@ -94,10 +96,10 @@ def chart(figures, path):
                 curve(axis, chosen, across, metric, denoised)
             axis.set_xscale("log")
             axis.set_xlabel("CPU s a frame" if column == 1 else "samples")
-            if column != 1:
-                axis.set_xticks(sorted({each["samples"] for each in figures["datasets"]}))
-                axis.xaxis.set_major_formatter(matplotlib.ticker.ScalarFormatter())
-                axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+            axis.set_xticks(sorted({each["samples"] for each in figures["datasets"]}) if column != 1 else CPU_TICKS_S)
+            axis.xaxis.set_major_formatter(matplotlib.ticker.ScalarFormatter())
+            axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+            axis.margins(x=0.14)
             if row == 0:
                 axis.set_title(title, fontsize=9)
             if column == 0:

@@ -44,12 +44,17 @@ class Study:
     detector_steps: int
     classifier_steps: int
 
+    def with_only(self, names):
+        of_names = {setting.name(): setting for setting in self.settings}
+        chosen = tuple(of_names[name] for name in names)
+        return dataclasses.replace(self, settings=chosen,
+                                   budget_settings=tuple(each for each in self.budget_settings if each in chosen))
+
 
 FULL = Study(
-    settings=(*(Setting(samples) for samples in (64, 16, 4, 2, 1)), *(Setting(samples, True) for samples in (16, 4, 2, 1))),
+    settings=tuple(Setting(samples, denoised) for denoised in (False, True) for samples in (64, 16, 4, 2, 1)),
     frames=80, budget_frames=20,
-    budget_settings=(Setting(64), Setting(16), Setting(4), Setting(1),
-                     Setting(4, True), Setting(1, True)),
+    budget_settings=(Setting(64), Setting(16), Setting(4), Setting(1), Setting(4, True), Setting(1, True)),
     test=Setting(256, threshold=0.03), test_frames=48, trainings=3, detector_steps=360, classifier_steps=300)
 QUICK = Study(
     settings=(Setting(64), Setting(4), Setting(1), Setting(4, True)),
@@ -134,12 +139,16 @@ def main():
     parser.add_argument("--report", type=pathlib.Path, help="folder to write tables and charts to")
     parser.add_argument("--work", type=pathlib.Path, help="keep datasets and trainings there (default: a folder that goes)")
     parser.add_argument("--trainings", type=int, help="with each dataset")
+    parser.add_argument("--settings", nargs="+", metavar="NAME", help="only these, such as 64 4 4-denoised; all are "
+                        "compared with the first")
     parser.add_argument("--blender", default=f"python:{HOME}/venv/blender-4.5")
     parser.add_argument("--program", type=pathlib.Path, default=HOME / "build/release/seedframe")
     options = parser.parse_args()
     study = FULL if options.full else QUICK
     if options.trainings:
         study = dataclasses.replace(study, trainings=options.trainings)
+    if options.settings:
+        study = study.with_only(options.settings)
     torch.set_num_threads(os.cpu_count())
     torch.use_deterministic_algorithms(True)
     with tempfile.TemporaryDirectory(prefix="seedframe-detector-") as scratch:
