@@ -12,7 +12,9 @@ holds of an earlier run is not done again.
 """
 
 import argparse
+import concurrent.futures
 import dataclasses
+import multiprocessing
 import os
 import pathlib
 import pickle
@@ -54,12 +56,12 @@ class Study:
 FULL = Study(
     settings=tuple(Setting(samples, denoised) for denoised in (False, True) for samples in (64, 16, 4, 2, 1)),
     frames=80, budget_frames=20,
-    budget_settings=(Setting(64), Setting(16), Setting(4), Setting(1), Setting(4, True), Setting(1, True)),
-    test=Setting(256, threshold=0.03), test_frames=48, trainings=3, detector_steps=360, classifier_steps=300)
+    budget_settings=(Setting(64), Setting(4), Setting(1), Setting(4, True), Setting(1, True), Setting(16)),
+    test=Setting(256, threshold=0.03), test_frames=48, trainings=3, detector_steps=300, classifier_steps=300)
 QUICK = Study(
     settings=(Setting(64), Setting(4), Setting(1), Setting(4, True)),
     frames=48, budget_frames=24, budget_settings=(Setting(64), Setting(4), Setting(4, True)),
-    test=Setting(128, threshold=0.05), test_frames=32, trainings=1, detector_steps=300, classifier_steps=250)
+    test=Setting(128, threshold=0.05), test_frames=32, trainings=1, detector_steps=240, classifier_steps=250)
 
 
 @dataclasses.dataclass
@@ -106,7 +108,7 @@ class Bench:
         found = {}
         for setting in self.study.budget_settings:
             there = rendered[setting.name()]
-            frames = int(budget / per_frame(setting))
+            frames = round(budget / per_frame(setting))
             name = f"more-{setting.name()}"
             if frames <= self.study.frames:
                 found[name] = Rendered(setting, frames, frames * per_frame(setting), there.dataset.first(frames))
@@ -132,6 +134,19 @@ class Bench:
             print(f"{name}, training {seed}: {told}", file=sys.stderr, flush=True)
         return pickle.loads(file.read_bytes())
 
+    def outcomes(self, rendered):
+        """Of each dataset those of its trainings. As many train at once as there are cores, with a thread each."""
+        jobs = [(name, seed) for seed in range(self.study.trainings) for name in rendered]
+        torch.set_num_threads(1)
+        torch.use_deterministic_algorithms(True)
+        fork = multiprocessing.get_context("fork")  # datasets are not copied
+        with concurrent.futures.ProcessPoolExecutor(os.cpu_count(), mp_context=fork) as trainers:
+            waiting = [trainers.submit(self.outcome, name, rendered[name].dataset, seed) for name, seed in jobs]
+            found = {name: [] for name in rendered}
+            for (name, _), each in zip(jobs, waiting):
+                found[name].append(each.result())
+        return found
+
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -149,18 +164,12 @@ def main():
         study = dataclasses.replace(study, trainings=options.trainings)
     if options.settings:
         study = study.with_only(options.settings)
-    torch.set_num_threads(os.cpu_count())
-    torch.use_deterministic_algorithms(True)
     with tempfile.TemporaryDirectory(prefix="seedframe-detector-") as scratch:
         campaigns = Campaigns(options.program, options.blender, options.work or pathlib.Path(scratch))
         bench = Bench(study, campaigns)
         same_frames = bench.of_same_frames()
         rendered = {**same_frames, **bench.of_same_time(same_frames)}
-        outcomes = {name: [] for name in rendered}
-        for seed in range(study.trainings):
-            for name, each in rendered.items():
-                outcomes[name].append(bench.outcome(name, each.dataset, seed))
-        write_report(options.report, study, campaigns, told(bench, rendered, outcomes),
+        write_report(options.report, study, campaigns, told(bench, rendered, bench.outcomes(rendered)),
                      {**{name: each.dataset for name, each in same_frames.items()}, "test": bench.test})
 
 
