@@ -12,6 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from average_precision import average_precision, match  # noqa: E402
 from boxes import STRIDE, boxes_of, iou, mirrored, moved, targets  # noqa: E402
+from scores import Outcome, differences, scores_of, spread_of_seeds  # noqa: E402
 
 
 def boxes(*rows):
@@ -122,6 +123,40 @@ class AveragePrecision(unittest.TestCase):
 
     def test_nothing_found_is_zero(self):
         numpy.testing.assert_array_equal(average_precision([matched([], [(self.FIRST, 0)])]), 0)
+
+
+class Scores(unittest.TestCase):
+    FOUND, MISSED = [([0, 0, 10, 10], 0, 0.9)], []
+
+    def outcome(self, *found, right):
+        """Of a picture for each of found, with one object and two patches each."""
+        pictures = len(found)
+        return Outcome([matched(each, [([0, 0, 10, 10], 0)]) for each in found], numpy.array(right), numpy.full(pictures, 2))
+
+    def test_are_percent_of_objects_and_of_patches(self):
+        scores = scores_of([self.outcome(self.FOUND, self.FOUND, right=[2, 1])])
+        self.assertEqual(scores, {"ap": [100], "ap50": [100], "top1": [75]})
+
+    def test_spread_is_that_within_datasets_and_not_between_them(self):
+        of = [{"ap": values, "ap50": values, "top1": values} for values in ([1, 3], [101, 103], [7])]
+        self.assertAlmostEqual(spread_of_seeds(of)["ap"], 2 ** 0.5)
+        self.assertEqual(spread_of_seeds(of[2:])["ap"], 0)
+
+    def test_a_difference_that_all_pictures_show_has_the_error_of_the_trainings_alone(self):
+        good = [self.outcome(self.FOUND, self.FOUND, right=[2, 2])] * 2
+        bad = [self.outcome(self.MISSED, self.MISSED, right=[1, 1])] * 2
+        found = differences({"good": good, "bad": bad}, "good", {"ap": 3, "ap50": 0, "top1": 0})
+        self.assertEqual(found["good"]["top1"], (0, 0))
+        self.assertEqual(found["bad"]["top1"], (-50, 0))
+        self.assertEqual(found["bad"]["ap"], (-100, 3))
+
+    def test_a_difference_in_half_of_the_pictures_has_the_error_of_which_were_drawn(self):
+        good = [self.outcome(self.FOUND, self.FOUND, right=[2, 2])]
+        mixed = [self.outcome(self.FOUND, self.FOUND, right=[0, 2])]
+        found = differences({"good": good, "mixed": mixed}, "good", {"ap": 0, "ap50": 0, "top1": 0})
+        difference, error = found["mixed"]["top1"]
+        self.assertEqual(difference, -50)
+        self.assertAlmostEqual(error, 100 * 0.5 / 2 ** 0.5, delta=4)  # of the mean of two draws of 0 or -100
 
 
 if __name__ == "__main__":

@@ -30,6 +30,7 @@ def write_report(folder, study, campaigns, figures, datasets):
 
 
 def page(study, campaigns, figures):
+    trainings = sorted({len(each["scores"]["ap"]) for each in figures["datasets"]})
     same, more = (sorted((each for each in figures["datasets"] if each["same_time"] == side),
                          key=lambda each: (each["denoised"], -each["samples"])) for side in (False, True))
     test = figures["test"]
@@ -39,8 +40,8 @@ def page(study, campaigns, figures):
         f"{pathlib.Path(campaigns.blender).name},",
         f"torch {torch.__version__}, {os.cpu_count()} cores. Frames of 128 × 96, each of a scene of its own; objects of at "
         f"least {LEAST_PIXELS} visible",
-        f"pixels and {100 * LEAST_VISIBLE:.0f} % of their silhouette. {study.trainings} "
-        f"training{'s' if study.trainings > 1 else ''} with each dataset, of {study.detector_steps} steps (detector) and "
+        f"pixels and {100 * LEAST_VISIBLE:.0f} % of their silhouette. {' or '.join(map(str, trainings))} "
+        f"training{'s' if trainings[-1] > 1 else ''} with each dataset, of {study.detector_steps} steps (detector) and "
         f"{study.classifier_steps} (classifier),",
         f"tested on {test['frames']} frames with {test['objects']} objects, of other scenes, rendered with up to "
         f"{study.test.samples} samples (adaptive, {study.test.threshold}).",
@@ -52,7 +53,7 @@ def page(study, campaigns, figures):
         f"As many frames as cost what {study.budget_frames} frames of {study.settings[0].samples} samples do.", "",
         *table(more), "",
         "## The noise of the experiment", ""]
-    if study.trainings > 1:
+    if trainings[-1] > 1:
         spread = figures["spread_of_seeds"]
         lines.append("Standard deviation between trainings with the same frames, from all datasets: " +
                      ", ".join(f"{NAMES[metric]} {spread[metric]:.1f}" for metric in NAMES) + ".")
@@ -135,5 +136,6 @@ def sheet(datasets, path, frame=0):
         x, y = 6 + index % columns * (width + 6), 20 + index // columns * (height + 22)
         drawn.paste(Image.fromarray(dataset.images[frame]).resize((width, height), Image.Resampling.NEAREST), (x, y))
         samples, _, denoised = name.partition("-")
-        pen.text((x, y - 14), "a test frame" if name == "test" else f"samples: {samples}{denoised and ', denoised'}", fill="black")
+        told = "a test frame" if name == "test" else f"samples: {samples}{denoised and ', denoised'}"
+        pen.text((x, y - 14), told, fill="black")
     drawn.save(path)

@@ -37,9 +37,13 @@ def scores_of(outcomes):
 
 
 def spread_of_seeds(scores):
-    """Of each metric: the standard deviation between seeds, from all datasets' scores_of(); 0 with a single seed."""
-    return {metric: float(math.sqrt(numpy.mean([numpy.var(each[metric], ddof=1) for each in scores])))
-            if len(scores[0][metric]) > 1 else 0.0 for metric in METRICS}
+    """Of each metric: the standard deviation between trainings, from the scores_of() all datasets; 0 where none has two."""
+    spread = {}
+    for metric in METRICS:
+        several = [each[metric] for each in scores if len(each[metric]) > 1]
+        squares = sum(len(each) * numpy.var(each) for each in several)
+        spread[metric] = math.sqrt(squares / max(1, sum(len(each) - 1 for each in several)))
+    return spread
 
 
 def resampled(outcomes, random):
@@ -54,14 +58,12 @@ def resampled(outcomes, random):
     return {metric: numpy.array(values) for metric, values in found.items()}
 
 
-def differences(outcomes, base):
+def differences(outcomes, base, spread):
     """Of each dataset and metric: by how much it scores more than the dataset `base`, and the standard error of that
-    for both noises. `outcomes`: of each dataset its seeds' outcomes."""
+    for both noises. `outcomes`: of each dataset its trainings'; `spread`: the spread_of_seeds() of all."""
     scores = {name: scores_of(each) for name, each in outcomes.items()}
-    spread = spread_of_seeds(list(scores.values()))
     drawn = {name: resampled(each, numpy.random.default_rng(1)) for name, each in outcomes.items()}
-    seeds = len(outcomes[base])
     return {name: {metric: (float(numpy.mean(scores[name][metric]) - numpy.mean(scores[base][metric])),
-                            math.sqrt(2 * spread[metric] ** 2 / seeds +
+                            math.sqrt(spread[metric] ** 2 * (1 / len(outcomes[name]) + 1 / len(outcomes[base])) +
                                       numpy.var(drawn[name][metric] - drawn[base][metric], ddof=1)))
                    for metric in METRICS} for name in outcomes}

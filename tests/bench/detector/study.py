@@ -46,11 +46,13 @@ class Study:
     detector_steps: int
     classifier_steps: int
 
-    def with_only(self, names):
-        of_names = {setting.name(): setting for setting in self.settings}
-        chosen = tuple(of_names[name] for name in names)
-        return dataclasses.replace(self, settings=chosen,
-                                   budget_settings=tuple(each for each in self.budget_settings if each in chosen))
+    def with_only(self, names, budget_names):
+        """Those of the settings that are named, in that order."""
+        def chosen(settings, wanted):
+            of_names = {setting.name(): setting for setting in settings}
+            return tuple(of_names[name] for name in wanted)
+        return dataclasses.replace(self, settings=chosen(self.settings, names),
+                                   budget_settings=chosen(self.budget_settings, budget_names))
 
 
 FULL = Study(
@@ -74,8 +76,9 @@ class Rendered:
 
 
 class Bench:
-    def __init__(self, study, campaigns):
+    def __init__(self, study, campaigns, report_only):
         self.study = study
+        self.report_only = report_only
         self.campaigns = campaigns
         self.test, self.classes = self._test()
         self.startup_s = self._startup_s()
@@ -118,9 +121,11 @@ class Bench:
         return found
 
     def outcome(self, name, dataset, seed):
-        """Of one training, or that of an earlier run."""
+        """Of one training, or that of an earlier run; None if there is none and none is to be made."""
         file = self.campaigns.folder / f"{name}-trained-{seed}.pickle"
         if not file.exists():
+            if self.report_only:
+                return None
             classes = len(self.classes)
             detector = trained_detector(dataset, classes, self.study.detector_steps, seed)
             classifier = trained_classifier(dataset, classes, self.study.classifier_steps, seed)
@@ -144,8 +149,8 @@ class Bench:
             waiting = [trainers.submit(self.outcome, name, rendered[name].dataset, seed) for name, seed in jobs]
             found = {name: [] for name in rendered}
             for (name, _), each in zip(jobs, waiting):
-                found[name].append(each.result())
-        return found
+                found[name] += [each.result()] if each.result() else []
+        return {name: each for name, each in found.items() if each}
 
 
 def main():
@@ -156,20 +161,26 @@ def main():
     parser.add_argument("--trainings", type=int, help="with each dataset")
     parser.add_argument("--settings", nargs="+", metavar="NAME", help="only these, such as 64 4 4-denoised; all are "
                         "compared with the first")
+    parser.add_argument("--same-time", nargs="+", metavar="NAME", help="of these, those with as many frames as the same "
+                        "time renders (default: all that are asked for)")
+    parser.add_argument("--report-only", action="store_true", help="train nothing: report what --work has of trainings")
     parser.add_argument("--blender", default=f"python:{HOME}/venv/blender-4.5")
     parser.add_argument("--program", type=pathlib.Path, default=HOME / "build/release/seedframe")
     options = parser.parse_args()
     study = FULL if options.full else QUICK
     if options.trainings:
         study = dataclasses.replace(study, trainings=options.trainings)
-    if options.settings:
-        study = study.with_only(options.settings)
+    names = options.settings or [setting.name() for setting in study.settings]
+    study = study.with_only(names, options.same_time or [each.name() for each in study.budget_settings
+                                                         if each.name() in names])
     with tempfile.TemporaryDirectory(prefix="seedframe-detector-") as scratch:
         campaigns = Campaigns(options.program, options.blender, options.work or pathlib.Path(scratch))
-        bench = Bench(study, campaigns)
+        bench = Bench(study, campaigns, options.report_only)
         same_frames = bench.of_same_frames()
         rendered = {**same_frames, **bench.of_same_time(same_frames)}
-        write_report(options.report, study, campaigns, told(bench, rendered, bench.outcomes(rendered)),
+        outcomes = bench.outcomes(rendered)
+        rendered = {name: rendered[name] for name in outcomes}
+        write_report(options.report, study, campaigns, told(bench, rendered, outcomes),
                      {**{name: each.dataset for name, each in same_frames.items()}, "test": bench.test})
 
 
@@ -178,12 +189,13 @@ def told(bench, rendered, outcomes):
     base = bench.study.settings[0].name()
     scores = {name: scores_of(each) for name, each in outcomes.items()}
     more = {name: each for name, each in outcomes.items() if name.startswith("more-")}
-    against = {**differences({name: each for name, each in outcomes.items() if name not in more}, base),
-               **(differences(more, f"more-{base}"))}
+    spread = spread_of_seeds(list(scores.values()))
+    against = {**differences({name: each for name, each in outcomes.items() if name not in more}, base, spread),
+               **differences(more, f"more-{base}", spread)}
     return {
         "startup_cpu_s": bench.startup_s,
         "test": {"frames": len(bench.test.images), "objects": int(sum(map(len, bench.test.boxes)))},
-        "spread_of_seeds": spread_of_seeds(list(scores.values())),
+        "spread_of_seeds": spread,
         "datasets": [{"name": name, "samples": each.setting.samples, "denoised": each.setting.denoised,
                       "same_time": name in more, "frames": each.frames, "cpu_s": each.cpu_s,
                       "objects": int(sum(map(len, each.dataset.boxes))), "scores": scores[name],
