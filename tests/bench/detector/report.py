@@ -31,8 +31,6 @@ def write_report(folder, study, campaigns, figures, datasets):
 
 def page(study, campaigns, figures):
     trainings = sorted({len(each["scores"]["ap"]) for each in figures["datasets"]})
-    same, more = (sorted((each for each in figures["datasets"] if each["same_time"] == side),
-                         key=lambda each: (each["denoised"], -each["samples"])) for side in (False, True))
     test = figures["test"]
     lines = [
         "# Samples against accuracy", "",
@@ -48,10 +46,11 @@ def page(study, campaigns, figures):
         "Accuracies in percent, the mean over trainings ± their standard deviation. *Against* is the difference from the",
         "table's first row ± two standard errors, of trainings and of test frames: what is less than that is not visible.", "",
         "![Accuracy over samples, over CPU time of a frame, and over samples at the same CPU time](study.svg)", "",
-        "## The same scenes", "", f"{study.frames} frames each.", "", *table(same), "",
+        "## The same scenes", "", f"{study.frames} frames each.", "", *table(figures, "same_scenes"), "",
         "## The same CPU time", "",
-        f"As many frames as cost what {study.budget_frames} frames of {study.settings[0].samples} samples do.", "",
-        *table(more), "",
+        f"As many frames as cost what {study.budget_frames} frames of {study.settings[0].samples} samples do; of settings that "
+        f"were not rendered for so long, the {study.frames}", "frames from above where they cost less.", "",
+        *table(figures, "same_time"), "",
         "## The noise of the experiment", ""]
     if trainings[-1] > 1:
         spread = figures["spread_of_seeds"]
@@ -63,7 +62,13 @@ def page(study, campaigns, figures):
     return "\n".join(lines)
 
 
-def table(rows):
+def rows_of(figures, comparison):
+    rows = [each for each in figures["datasets"] if comparison in each["against"]]
+    return sorted(rows, key=lambda each: (each["denoised"], -each["samples"]))
+
+
+def table(figures, comparison):
+    rows = rows_of(figures, comparison)
     lines = ["| samples | denoised | frames | objects | CPU s a frame | CPU s | " + " | ".join(
                  f"{name} | against" for name in NAMES.values()) + " |",
              "|---:|---|---:|---:|---:|---:|" + "---:|---:|" * len(NAMES)]
@@ -73,7 +78,7 @@ def table(rows):
         for metric in NAMES:
             scores = row["scores"][metric]
             cells.append(f"{numpy.mean(scores):.1f}" + (f" ± {numpy.std(scores, ddof=1):.1f}" if len(scores) > 1 else ""))
-            difference, error = row["against_first"][metric]
+            difference, error = row["against"][comparison][metric]
             cells.append("" if row is rows[0] else f"{difference:+.1f} ± {2 * error:.1f}")
         lines.append("| " + " | ".join(map(str, cells)) + " |")
     return lines
@@ -86,15 +91,14 @@ def chart(figures, path):
     from matplotlib import pyplot  # after use()
     drawing, axes = pyplot.subplots(2, 3, figsize=(11, 6.2), sharey="row")
     for row, metric in enumerate(("ap", "top1")):
-        for column, (title, same_time, across) in enumerate((
-                ("the same scenes", False, lambda each: each["samples"]),
-                ("the same scenes", False, lambda each: each["cpu_s"] / each["frames"]),
-                ("as many frames as the same CPU time renders", True, lambda each: each["samples"]))):
+        for column, (title, comparison, across) in enumerate((
+                ("the same scenes", "same_scenes", lambda each: each["samples"]),
+                ("the same scenes", "same_scenes", lambda each: each["cpu_s"] / each["frames"]),
+                ("at most the same CPU time", "same_time", lambda each: each["samples"]))):
             axis = axes[row][column]
             for denoised in (False, True):
-                chosen = sorted((each for each in figures["datasets"]
-                                 if (each["same_time"], each["denoised"]) == (same_time, denoised)), key=across)
-                curve(axis, chosen, across, metric, denoised)
+                chosen = [each for each in rows_of(figures, comparison) if each["denoised"] == denoised]
+                curve(axis, chosen, across, metric, label_frames=column == 2 and row == 0)
             axis.set_xscale("log")
             axis.set_xlabel("CPU s a frame" if column == 1 else "samples")
             axis.set_xticks(sorted({each["samples"] for each in figures["datasets"]}) if column != 1 else CPU_TICKS_S)
@@ -111,15 +115,16 @@ def chart(figures, path):
     drawing.savefig(path.with_suffix(".png"), dpi=110, metadata={"Software": None})
 
 
-def curve(axis, chosen, across, metric, denoised):
+def curve(axis, chosen, across, metric, label_frames):
     if not chosen:
         return
+    denoised = chosen[0]["denoised"]
     means = [numpy.mean(each["scores"][metric]) for each in chosen]
     spreads = [numpy.std(each["scores"][metric], ddof=1) if len(each["scores"][metric]) > 1 else 0 for each in chosen]
     axis.errorbar([across(each) for each in chosen], means, spreads, color=COLORS[denoised], marker="os"[denoised],
                   markersize=4, capsize=3, linewidth=1.2, label="denoised" if denoised else "plain")
     for each, mean in zip(chosen, means):
-        if each["same_time"] and metric == "ap":
+        if label_frames:
             axis.annotate(f"{each['frames']} frames", (across(each), mean), xytext=(4, 6 if denoised else -12),
                           textcoords="offset points", fontsize=7, color=COLORS[denoised])
 
