@@ -1,6 +1,7 @@
 """The study's tables, its chart, and a sheet of one frame with each setting."""
 
 import json
+import math
 import os
 import pathlib
 
@@ -104,7 +105,7 @@ def chart(figures, path):
             axis.set_xticks(sorted({each["samples"] for each in figures["datasets"]}) if column != 1 else CPU_TICKS_S)
             axis.xaxis.set_major_formatter(matplotlib.ticker.ScalarFormatter())
             axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
-            axis.margins(x=0.14)
+            axis.margins(x=0.2, y=0.12)
             if row == 0:
                 axis.set_title(title, fontsize=9)
             if column == 0:
@@ -120,7 +121,7 @@ def curve(axis, chosen, across, metric, label_frames):
         return
     denoised = chosen[0]["denoised"]
     means = [numpy.mean(each["scores"][metric]) for each in chosen]
-    spreads = [numpy.std(each["scores"][metric], ddof=1) if len(each["scores"][metric]) > 1 else 0 for each in chosen]
+    spreads = [numpy.std(each["scores"][metric], ddof=1) if len(each["scores"][metric]) > 1 else math.nan for each in chosen]
     axis.errorbar([across(each) for each in chosen], means, spreads, color=COLORS[denoised], marker="os"[denoised],
                   markersize=4, capsize=3, linewidth=1.2, label="denoised" if denoised else "plain")
     for each, mean in zip(chosen, means):
