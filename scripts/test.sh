@@ -40,7 +40,7 @@ run_tests() { # preset, label, how many at once, and which of them
 }
 
 # Tests that another Blender could fail; not what follows from our own code alone.
-of_versions='^RealBlender(|Levers|Error|Instances|Twin|Color|Reading|Campaign|Versions|Study)\.'
+of_versions='^RealBlender(|Levers|Error|Instances|Twin|Color|Reading|Campaign|Region|Versions|Study)\.'
 run_version() { # of Blender: as a module of Python, if it can be installed
   echo "== tests with the real Blender $1"
   if scripts/setup.sh --blender "$1"; then

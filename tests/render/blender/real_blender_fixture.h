@@ -310,7 +310,7 @@ inline FrameSpec RealBlender::varied(std::int64_t frame) const {
     light.color = {draw(0, 1), draw(0, 1), draw(0, 1)};
     light.power = light.kind == LightKind::kSun ? 2 : 100;
     light.radius_m = draw(0, 0.2);
-    light.angle_rad = draw(0.01, 1);
+    light.angle_rad = draw(0.02, 1);  // Blender's spots have a degree or more
     light.blend = draw(0, 1);
     light.width_m = draw(0.1, 1);
     light.height_m = draw(0.1, 1);

@@ -170,7 +170,7 @@ TEST_F(RealBlender, AShortFocalLengthIsRefusedNotClamped) {
   specs[0] = ball();
   specs[0].camera.focal_px = {1.0, 1.0};
   ASSERT_TRUE(render({0}, 1));
-  EXPECT_THAT(failures[0], testing::HasSubstr("focal length"));
+  EXPECT_THAT(failures[0], testing::HasSubstr("cannot render lens = 0.75"));
 }
 
 }  // namespace
