@@ -42,7 +42,8 @@ Result<std::vector<AttemptRow>> attempts_of(const JobStore& store,
 
 /// Of whoever makes frames one after the other: a worker, or a thread that traces.
 double seconds_of(const AttemptRow& row) {
-  return row.worker == kNoWorker ? row.finish_s : row.build_s + row.render_s;
+  const double rendered_s = row.build_s + row.render_s;
+  return rendered_s > 0.0 ? rendered_s : row.finish_s;
 }
 
 double mean_of(const std::vector<double>& values) {
@@ -70,7 +71,7 @@ Forecast told_by(const std::vector<AttemptRow>& pilots, double begin, int worker
   std::vector<double> firsts, others;
   std::map<int, bool> has_begun;
   for (const AttemptRow& row : pilots) {
-    const bool is_first = row.worker != kNoWorker && !std::exchange(has_begun[row.worker], true);
+    const bool is_first = !std::exchange(has_begun[row.worker], true);
     (is_first && made[row.worker] > 1 ? firsts : others).push_back(seconds_of(row));
   }
   Forecast forecast;

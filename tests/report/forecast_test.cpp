@@ -40,7 +40,7 @@ TEST(Forecast, TakesAFirstFrameWhereThereIsNoOther) {
 
 TEST(Forecast, WithoutBlenderAThreadFinishesFrames) {
   const Forecast told =
-      told_by({attempt(kNoWorker, 5, 0, 0, 0.25), attempt(kNoWorker, 5, 0, 0, 0.25)}, 5.0, 2, 100);
+      told_by({attempt(0, 5, 0, 0, 0.25), attempt(0, 5, 0, 0, 0.25)}, 5.0, 2, 100);
   EXPECT_DOUBLE_EQ(told.frame_s, 0.25);
   EXPECT_DOUBLE_EQ(told.wall_s, 100 * 0.25 / 2 + 0.25);
 }
