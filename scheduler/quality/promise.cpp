@@ -36,6 +36,7 @@ PromiseCheck check_promise(const std::vector<FrameError>& errors, const ErrorPro
 double quantile_of_error(const std::vector<FrameError>& errors, double share) {
   if (errors.empty()) return 0.0;
   std::vector<double> sorted;
+  sorted.reserve(errors.size());
   for (const FrameError& each : errors) sorted.push_back(each.error);
   std::sort(sorted.begin(), sorted.end());
   const double rank = std::ceil(share * static_cast<double>(sorted.size()));

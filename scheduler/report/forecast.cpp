@@ -98,6 +98,7 @@ Result<Forecast> forecast(const PreparedCampaign& prepared, RunSetup setup, std:
   Result<Campaign> campaign = create_scratch_campaign(folder, chosen, prepared, used);
   if (!campaign) return forward_error(campaign);
   std::vector<PendingFrame> pending;
+  pending.reserve(chosen.size());
   for (const std::int64_t frame : chosen) pending.push_back({frame, 0, 0});
   using Clock = std::chrono::system_clock;  // as the store's
   const double begin = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();

@@ -35,7 +35,7 @@ class Connection {
       uri +=
           has_meaning ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
     }
-    const Status opened = open(uri + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+    Status opened = open(uri + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
     path_ = path;
     return opened;
   }
