@@ -6,6 +6,7 @@ Each point is a small campaign with everything that is on by default; what a fra
 the first frame of each worker apart, which reads meshes and images.
 
     tests/bench/scaling.py [--axis NAME…] [--blender BLENDER] [--largest-mesh 1000000] [--report FOLDER]
+    tests/bench/scaling.py --draw results/scaling      the chart again, of figures that are there
 """
 
 import argparse
@@ -180,6 +181,7 @@ def growth(costs, cost_of):
 
 
 PANEL = (300, 220)
+LEAST_MS = 0.1  # that is drawn
 LINES = (("all told, wall", "wall_ms", "#222222"), ("Cycles", "render_ms", "#c2410c"), ("build", "build_ms", "#2563eb"),
          ("finish", "finish_ms", "#15803d"))
 
@@ -187,7 +189,7 @@ LINES = (("all told, wall", "wall_ms", "#222222"), ("Cycles", "render_ms", "#c24
 def chart(costs):
     """Milliseconds of a frame against each axis, both logarithmic, a panel each, as SVG."""
     axes = list(dict.fromkeys(cost.point.axis for cost in costs))
-    shown = [[max(getattr(cost, key), 0.05) for cost in costs if cost.point.axis == axis] for axis in axes
+    shown = [[max(getattr(cost, key), LEAST_MS) for cost in costs if cost.point.axis == axis] for axis in axes
              for _, key, _ in LINES]
     low = math.floor(math.log10(min(map(min, shown))))
     high = math.ceil(math.log10(max(map(max, shown))))
@@ -211,7 +213,7 @@ def panel(axis, costs, low, high, left, top):
     values = [max(cost.point.value, 0.5) for cost in costs]  # where 0 stands
     first, last = math.log10(values[0]), math.log10(values[-1])
     x_of = lambda value: inner[0] + inner[2] * (math.log10(value) - first) / (last - first or 1)
-    y_of = lambda ms: inner[1] + inner[3] * (high - math.log10(max(ms, 0.05))) / (high - low)
+    y_of = lambda ms: inner[1] + inner[3] * (high - math.log10(max(ms, LEAST_MS))) / (high - low)
     parts = [f'<text x="{inner[0]}" y="{top + 14}" font-weight="bold">{axis}</text>']
     for power in range(low, high + 1):
         y = y_of(10.0 ** power)
@@ -266,7 +268,13 @@ def main():
     parser.add_argument("--largest-mesh", type=int, default=1_000_000, help="triangles")
     parser.add_argument("--program", type=pathlib.Path, default=HOME / "build" / "release" / "seedframe")
     parser.add_argument("--report", type=pathlib.Path, help="folder for README.md and figures.json")
+    parser.add_argument("--draw", type=pathlib.Path, help="measure nothing: draw this folder's figures.json again")
     options = parser.parse_args()
+    if options.draw:
+        figures = json.loads((options.draw / "figures.json").read_text(encoding="utf-8"))
+        costs = [Cost(Point(figure.pop("axis"), figure.pop("value"), {}), **figure) for figure in figures]
+        (options.draw / "scaling.svg").write_text(chart(costs), encoding="utf-8")
+        return
     with tempfile.TemporaryDirectory(prefix="seedframe-scaling-") as name:
         folder = pathlib.Path(name)
         write_tiles(folder / "materials", 100)
