@@ -41,8 +41,7 @@ class MaterialPool:
 
     def get(self, slot, worn, paths):
         """A Wardrobe of these materials of the frame spec, for a slot of a mesh."""
-        # By structure first, so that as many frames as can be share a tree.
-        looks = sorted({_look_of(spec) for spec in worn}, key=lambda look: (_uses(look), look))
+        looks = _padded({_look_of(spec) for spec in worn})
         varying = tuple(name for name in ("base_color", *_SCALARS, "texture_repeat")
                         if any(spec[name] != worn[0][name] for spec in worn))
         shape = (slot, tuple(_uses(look) for look in looks), varying)
@@ -85,6 +84,21 @@ def _uses(look):
     return tuple(use for use, _ in look)
 
 
+def _padded(looks):
+    """By structure, the last look of each repeated up to a round number: so frames that wear now 58 sets
+    of images and now 61 share a tree. No object wears what is added, and Cycles skips it."""
+    by_structure = collections.defaultdict(list)
+    for look in sorted(looks, key=lambda look: (_uses(look), look)):
+        by_structure[_uses(look)].append(look)
+    return [look for group in by_structure.values()
+            for look in group + group[-1:] * (_round_number(len(group)) - len(group))]
+
+
+def _round_number(count):
+    """Not below a count: a power of two up to 16, then a multiple of it."""
+    return 1 << (count - 1).bit_length() if count < 16 else -(-count // 16) * 16
+
+
 class _Tree:
     """One material: a Principled shader for each look, and a choice between them."""
 
@@ -97,6 +111,7 @@ class _Tree:
         self.properties = {}  # of an object: name -> four times which value
         self._varying = {}  # value -> the socket that carries it
         self._constants = collections.defaultdict(list)  # value -> sockets to be set
+        self._present = {}  # value -> what those sockets are set to
         self._add_attributes(slot, varying + (("look",) if len(structures) > 1 else ()))
         self._uv = self._add_uv() if any(structures) else None
         self._textures = []  # for each look: use -> node
@@ -106,6 +121,9 @@ class _Tree:
     def set_constants(self, spec):
         for name, sockets in self._constants.items():
             value = spec[name]
+            if self._present.get(name) == value:  # setting a socket updates the whole tree
+                continue
+            self._present[name] = value
             for socket in sockets:
                 if socket.type == "RGBA":
                     socket.default_value = (*value, 1.0)
@@ -115,7 +133,9 @@ class _Tree:
     def set_images(self, looks, images, paths):
         for look, nodes in zip(looks, self._textures):
             for use, sha256 in look:
-                nodes[use].image = images.get(sha256, "color" if use == "color" else "data", paths)
+                image = images.get(sha256, "color" if use == "color" else "data", paths)
+                if nodes[use].image != image:  # so does setting an image
+                    nodes[use].image = image
 
     def _add(self, kind):
         return self._nodes.new(kind)
