@@ -137,6 +137,7 @@ FORMS = {
     "level": ref("level"),
     "two numbers": numbers(2),
     "one to three numbers": numbers(1, 3),
+    "four numbers": numbers(4),
     "number or two numbers": {"anyOf": [ref("number"), numbers(2)]},
     "number or vector": {"anyOf": [ref("number"), numbers(3)]},
     "vector, or `objects`": ref("vector"),
@@ -145,13 +146,14 @@ FORMS = {
     "names and values": ref("values"),
     "names and lists": ref("axes"),
     "names and materials": names_to(ref("material"), "."),
+    "name, or names and texts": {"anyOf": [ref("name"), names_to(ref("text"), ".")]},
     "paths and values": {"type": "object"},
 }
 
 
 def form_of(words):
     """The schema for a cell of the column "value"; None for a section, whose keys have rows of their own."""
-    if words in ("section", "named sections", "section, or its source", "section, or its mode", "section, or its around"):
+    if words.startswith("section, or `") or words in ("section", "named sections", "section, or its source", "section, or its mode", "section, or its around"):
         return None
     if words in FORMS:
         return dict(FORMS[words])
@@ -258,6 +260,8 @@ def build(keys):
         form = form_of(key.value)
         if key.value.startswith("section"):
             form = section(key.path)
+        if key.value.startswith("section, or `"):
+            form = {"anyOf": [form, {"enum": re.findall(r"`([^`]+)`", key.value)}]}
         if ", or its " in key.value:
             form = {"anyOf": [form, form["properties"][key.value.rsplit(" ", 1)[-1]]]}
         elif key.value == "named sections":
@@ -277,7 +281,8 @@ def build(keys):
 
     # What the tables say in words only.
     named("objects")["anyOf"] = [{"required": ["asset"]}, {"required": ["objects"]}]
-    forbid(named("objects"), ("count", "grid"), ("scatter", "grid"))
+    forbid(named("objects"), ("count", "grid"), ("scatter", "grid"), ("rotation", "rotation_deg"),
+           ("rest", "rest_on_ground"), ("rest", "rotation"))
     add_light_types(named("lights"), by_path.values())
     forbid(named("lights"), ("count", "grid"))
     camera = root["properties"]["camera"]

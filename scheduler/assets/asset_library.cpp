@@ -58,6 +58,7 @@ Result<Asset> read_asset(const fs::path& folder) {
   if (!mesh) return forward_error(mesh);
   Asset asset;
   asset.name = description->name;
+  asset.folder = folder;
   asset.category = description->category;
   asset.description = description->description;
   asset.mesh = std::move(*mesh);

@@ -31,6 +31,31 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 // Nobody mistypes a longer one, and comparing two takes the product of their lengths.
 constexpr std::size_t kLongestName = 64;
 
+/// Those that begin with the words of the name: rotation_deg with rotation, yolo-obb with yolo.
+std::vector<std::string> longer_names(std::string_view name,
+                                      const std::vector<std::string>& candidates) {
+  constexpr std::size_t kMostMeant = 6;
+  std::vector<std::string> longer;
+  if (name.empty()) return longer;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > name.size() && candidate.starts_with(name) &&
+        (candidate[name.size()] == '_' || candidate[name.size()] == '-')) {
+      longer.push_back(candidate);
+    }
+  }
+  return longer.size() > kMostMeant ? std::vector<std::string>() : longer;
+}
+
+/// "'a', 'b' or 'c'".
+std::string alternatives(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+    text += "'" + names[i] + "'";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
@@ -47,12 +72,15 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     }
   }
   const std::size_t allowed = std::max<std::size_t>(1, best.size() / 3);
-  return best_distance <= allowed ? best : std::string();
+  // A name of which no character is right is another name.
+  return best_distance <= allowed && best_distance < name.size() ? best : std::string();
 }
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
   const std::string nearest = nearest_name(name, candidates);
   if (!nearest.empty()) return fmt::format(" (did you mean '{}'?)", nearest);
+  const std::vector<std::string> longer = longer_names(name, candidates);
+  if (!longer.empty()) return fmt::format(" (did you mean {}?)", alternatives(longer));
   if (candidates.empty()) return {};
   constexpr std::size_t kMostListed = 32;
   const std::size_t shown = std::min(candidates.size(), kMostListed);

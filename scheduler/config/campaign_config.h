@@ -137,6 +137,12 @@ struct ScatterConfig {
   Place place;
 };
 
+/// A name, and where it stands.
+struct PlacedName {
+  std::string name;
+  Place place;
+};
+
 struct ObjectConfig {
   std::string name;
   Place place;
@@ -145,14 +151,20 @@ struct ObjectConfig {
   NumberSource count;
   std::optional<GridConfig> grid;      ///< says the count, instead of `count`
   std::optional<NameSource> asset;     ///< none: a group, which only carries its `objects`
-  std::optional<NameSource> category;  ///< none: the asset's own
+  std::optional<NameSource> category;  ///< none: the asset's own, or that of category_of_asset
+  std::map<std::string, PlacedName> category_of_asset;
   MaterialSource material;
+  bool material_of_parent = false;  ///< instead: that of the copy which this object is in
+  bool has_material = false;        ///< false: no word of it; a group has none then
   std::map<std::string, MaterialSource> slots;  ///< by material slot, instead of `material`
   VectorSource scale;                           ///< along the object's own axes
   VectorSource rotation_deg;                    ///< Euler angles, applied about x, then y, then z
-  VectorSource position;                        ///< metres, in the parent; x right, y away, z up
-  std::optional<ScatterConfig> scatter;         ///< replaces x and y of the position
-  bool rest_on_ground = false;  ///< the lowest vertex is lifted to z of the position
+  bool random_rotation = false;                 ///< any, instead of rotation_deg
+  std::optional<std::array<NumberSource, 4>> quaternion;  ///< w, x, y, z, instead of rotation_deg
+  VectorSource position;                 ///< metres, in the parent; x right, y away, z up
+  std::optional<ScatterConfig> scatter;  ///< replaces x and y of the position
+  bool rest_on_ground = false;           ///< the lowest vertex is lifted to z of the position
+  bool rest_stable = false;  ///< on a face of its hull that it can stand on, and so lifted
   HiddenFrom hidden_from;
   bool auto_detail = false;           ///< a coarser level of the asset where nobody could tell
   std::vector<ObjectConfig> objects;  ///< placed relative to each copy of this one

@@ -102,7 +102,11 @@ Status apply(const YAML::Node& root, const Override& change) {
                   where, i == 0 ? "the config" : keys[i - 1]);
     }
     if (i + 1 == keys.size()) {
-      node[keys[i]] = *value;
+      if (value->IsNull()) {
+        node.remove(keys[i]);
+      } else {
+        node[keys[i]] = *value;
+      }
     } else {
       YAML::Node next = node[keys[i]];
       if (!next.IsDefined() || next.IsNull()) {
@@ -111,6 +115,11 @@ Status apply(const YAML::Node& root, const Override& change) {
       }
       node.reset(next);
     }
+  }
+  // Each line of graphs is a scene, so they come in place of what says how many scenes there are.
+  if (change.path == "graphs" && !value->IsNull()) {
+    node.remove("scenes");
+    node.remove("sweep");
   }
   return {};
 }

@@ -52,6 +52,72 @@ ScatterConfig read_scatter(const ConfigNode& node, Diagnostics& errors) {
   return scatter;
 }
 
+/// A name or a choice, `own`, or for each asset its category.
+void read_category(SectionReader& section, ObjectConfig& object) {
+  const auto node = section.find("category");
+  if (!node || (node->is_scalar() && node->text() == "own")) return;
+  if (!node->is_map() || node->find("choice")) {
+    object.category = read_name(*node, section.errors());
+    return;
+  }
+  for (const auto& [asset, category] : node->entries()) {
+    if (category.is_scalar() && !category.text().empty()) {
+      object.category_of_asset[asset] = {category.text(), category.place()};
+    } else {
+      section.errors().add(category.place(),
+                           "expected a category, found " + category.description());
+    }
+  }
+}
+
+/// Besides rotation_deg: any rotation, or that of a quaternion.
+void read_rotation(SectionReader& section, ObjectConfig& object) {
+  const auto node = section.find("rotation");
+  if (!node) return;
+  if (const auto angles = section.node().find("rotation_deg")) {
+    section.errors().add(angles->place(), "rotation and rotation_deg exclude each other");
+  }
+  object.random_rotation = node->is_scalar() && node->text() == "random";
+  if (object.random_rotation) return;
+  if (!node->is_map()) {
+    section.errors().add(node->place(), "expected random, or {quaternion: [w, x, y, z]}, found " +
+                                            node->description() +
+                                            "; angles are rotation_deg: [x, y, z]");
+    return;
+  }
+  SectionReader inner(*node, section.errors());
+  const auto quaternion = inner.require("quaternion");
+  inner.refuse_other_keys();
+  if (!quaternion) return;
+  const std::vector<ConfigNode> items = quaternion->items();
+  if (items.size() != 4) {
+    section.errors().add(quaternion->place(),
+                         "expected [w, x, y, z], found " + quaternion->description());
+    return;
+  }
+  object.quaternion.emplace();
+  for (std::size_t i = 0; i < 4; ++i) {
+    (*object.quaternion)[i] = read_number(items[i], section.errors());
+  }
+}
+
+bool read_rest(SectionReader& section) {
+  const auto node = section.find("rest");
+  if (!node) return false;
+  if (!node->is_scalar() || node->text() != "stable") {
+    section.errors().add(node->place(), "expected stable, found " + node->description());
+  }
+  for (const char* key : {"rest_on_ground", "rotation"}) {
+    if (const auto other = section.node().find(key)) {
+      section.errors().add(
+          other->place(),
+          fmt::format("rest and {} exclude each other{}", key,
+                      std::string(key) == "rotation" ? ": rotation_deg turns what rests" : ""));
+    }
+  }
+  return true;
+}
+
 HiddenFrom read_hidden_from(SectionReader& section) {
   static const std::vector<std::string> names = {"camera", "diffuse", "glossy", "transmission",
                                                  "shadow"};
@@ -93,9 +159,10 @@ ObjectConfig read_object(const std::string& name, const ConfigNode& node, Diagno
     errors.add(node.find("count")->place(), "count and grid exclude each other");
   }
   if (const auto asset = section.find("asset")) object.asset = read_name(*asset, errors);
-  if (const auto category = section.find("category")) {
-    object.category = read_name(*category, errors);
-  }
+  read_category(section, object);
+  const auto material = node.find("material");
+  object.has_material = material.has_value();
+  object.material_of_parent = material && material->is_scalar() && material->text() == "parent";
   object.material = section.material("material");
   if (const auto slots = section.find("slots")) {
     if (!slots->is_map() && !slots->is_null()) {
@@ -108,11 +175,13 @@ ObjectConfig read_object(const std::string& name, const ConfigNode& node, Diagno
   }
   object.scale = read_scale(section);
   object.rotation_deg = section.vector("rotation_deg", {0, 0, 0});
+  read_rotation(section, object);
   object.position = section.vector("position", {0, 0, 0});
   if (const auto scatter = section.find("scatter")) {
     object.scatter = read_scatter(*scatter, errors);
   }
   object.rest_on_ground = section.flag("rest_on_ground", false);
+  object.rest_stable = read_rest(section);
   object.hidden_from = read_hidden_from(section);
   const std::string detail = section.text("detail", "full");
   object.auto_detail = detail == "auto";
@@ -126,7 +195,7 @@ ObjectConfig read_object(const std::string& name, const ConfigNode& node, Diagno
                "the key 'asset' is missing (only a group, with 'objects' of its own, "
                "needs none)");
   }
-  for (const char* key : {"category", "material", "slots", "hidden_from", "detail"}) {
+  for (const char* key : {"category", "slots", "hidden_from", "detail", "rest"}) {
     if (object.asset || !node.find(key)) continue;
     errors.add(node.find(key)->place(), fmt::format("{} belongs to an asset, and this group has "
                                                     "none",

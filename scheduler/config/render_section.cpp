@@ -37,7 +37,7 @@ double read_within(SectionReader& section, const char* key, double fallback, dou
 AdaptiveSampling read_adaptive(SectionReader& render, int samples) {
   AdaptiveSampling adaptive;
   const auto node = render.find("adaptive");
-  if (!node || node->is_null()) return adaptive;  // null: --set takes back what a config says
+  if (!node || node->is_null()) return adaptive;
   SectionReader section(*node, render.errors());
   section.require("threshold");
   section.require("min_samples");
@@ -103,7 +103,7 @@ RenderLevers read_levers(SectionReader& render, int max_bounces) {
 RegionConfig read_region(SectionReader& render, int width, int height) {
   RegionConfig region;
   const auto node = render.find("region");
-  if (!node || node->is_null()) return region;  // null: --set takes back what a config says
+  if (!node || node->is_null()) return region;
   const auto read_around = [&](const ConfigNode& around) {
     region.of_objects = around.is_scalar() && around.text() == "objects";
     if (region.of_objects) return;

@@ -31,6 +31,18 @@ void EvaluationContext::report_frame(const std::string& message) {
                             copy == kNoIndex ? std::string() : fmt::format(", copy {}", copy))};
 }
 
+bool EvaluationContext::take_next_layout() {
+  if (!crowded || *crowded == Level::kFrame || layout + 1 == kMostLayouts) return false;
+  forget_error();
+  ++layout;
+  return true;
+}
+
+void EvaluationContext::forget_error() {
+  error.reset();
+  crowded.reset();
+}
+
 std::string draw_name(const std::string& name, const EvaluationContext& context) {
   return context.copy == kNoIndex ? name : fmt::format("{}/{}", name, context.copy);
 }

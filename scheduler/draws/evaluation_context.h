@@ -21,7 +21,11 @@ namespace seedframe {
 struct GivenValues {
   std::vector<std::array<double, 3>> numbers;
   std::vector<std::string> names;
+  bool per_copy = false;  ///< even if it is only one
 };
+
+inline constexpr std::uint32_t kMostLayouts = 32;
+inline constexpr std::uint32_t kAttemptsOfLayout = 1U << 27U;  ///< of a draw; 32 bits hold them all
 
 /// Where in the campaign values are being evaluated, and what came of it. All that changes while a
 /// frame is expanded is here, so that a compiled config serves several threads.
@@ -35,7 +39,9 @@ struct EvaluationContext {
   std::uint32_t ordinal = 0;            ///< of that copy among all of its section in the frame
   std::uint32_t frame_attempt = 0;      ///< to meet the constraints; changes frame-level draws
   std::uint32_t placement_attempt = 0;  ///< to find a free place
-  VariableValues values;                ///< as far as they have been evaluated
+  std::uint32_t layout = 0;      ///< of the places that a scene's frames share; changes those draws
+  std::optional<Level> crowded;  ///< a copy whose place is drawn at that level found none
+  VariableValues values;         ///< as far as they have been evaluated
   /// By GraphVariable::index; null: no graph gives any.
   std::shared_ptr<const std::vector<GivenValues>> given;
   std::optional<Error> error;  ///< the first; evaluation goes on with zeros
@@ -45,6 +51,11 @@ struct EvaluationContext {
   PhiloxStream::Position position(Level level) const;
   void report(const Place& place, const std::string& message);
   void report_frame(const std::string& message);
+  /// After a frame's copy was crowded out: whether the frame is to be drawn once more, with the
+  /// places that its scene shares in another layout. Never because of a place that is the frame's
+  /// own.
+  bool take_next_layout();
+  void forget_error();
 };
 
 /// What formulas and names may refer to at one place of the config.

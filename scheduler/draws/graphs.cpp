@@ -42,6 +42,7 @@ std::string take_values(const Json& value, const GraphVariable& variable, GivenV
   if (!is_list) return take_value(value, variable, given);
   if (!variable.per_copy) return "expected one value: this variable has no copies";
   if (value.empty()) return "expected a value for each copy, found none";
+  given.per_copy = true;
   for (const Json& item : value) {
     if (std::string wrong = take_value(item, variable, given); !wrong.empty()) return wrong;
   }

@@ -203,11 +203,12 @@ bool VariableBlock::take_given(const Variable& variable, EvaluationContext& cont
   const bool is_name = variable.type.type == ValueType::kText;
   const std::size_t count = is_name ? given.names.size() : given.numbers.size();
   if (count == 0) return false;
-  const std::size_t index = count == 1 ? 0 : context.ordinal;
+  const std::size_t index = given.per_copy ? context.ordinal : 0;
   if (index >= count) {
-    context.report(variable.place, fmt::format("the graph gives '{}' {} values, but there are more "
-                                               "copies",
-                                               variable.graph_key, count));
+    context.report(variable.place,
+                   fmt::format("the graph gives '{}' a list of {}, but there are more copies{}",
+                               variable.graph_key, count,
+                               count == 1 ? "; for all of them, give the value without []" : ""));
   } else if (is_name) {
     context.values.texts[variable.slot] = given.names[index];
   } else {

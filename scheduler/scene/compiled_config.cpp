@@ -33,6 +33,9 @@ class Compiler {
     built_in.copies = add_built_in("copies");
     for (const ObjectConfig& object : config_.objects) {
       compiled_.objects.push_back(compile_object(object, "objects.", count_scope_, scope_));
+      if (!object.material_of_parent) continue;
+      errors_.add(object.place,
+                  "material: parent, but '" + object.name + "' is in no other object");
     }
     compiled_.sections = sections_.size();
     for (const LightConfig& light : config_.lights) compile_light(light);
@@ -147,36 +150,69 @@ class Compiler {
     const SectionCompiler section(scope, section_name, config.redraw, errors_);
     if (config.asset) object.asset = section.text(*config.asset, "asset");
     if (config.category) object.category = section.text(*config.category, "category");
-    if (config.asset) {
+    object.category_of_asset = config.category_of_asset;
+    object.material_of_parent = config.material_of_parent;
+    if (!config.material_of_parent && (config.asset || config.has_material)) {
       object.materials = section.materials(config.material, materials_, "material");
+    }
+    if (config.asset) {
       for (const auto& [slot, source] : config.slots) {
         object.slots.emplace(slot, section.materials(source, materials_, "slots." + slot));
       }
     }
     object.scale = section.vector(config.scale, "scale");
     object.rotation_deg = section.vector(config.rotation_deg, "rotation_deg");
+    compile_attitude(config, section, object);
     object.position = section.vector(config.position, "position");
     if (config.scatter) object.scatter = compile_scatter(*config.scatter, section);
-    object.rest_on_ground = config.rest_on_ground;
+    object.rest_on_ground = config.rest_on_ground || config.rest_stable;
     object.hidden_from = config.hidden_from;
     object.auto_detail = config.auto_detail;
     for (const ObjectConfig& child : config.objects) {
       object.objects.push_back(compile_object(child, section_name + ".objects.", scope, scope));
+      if (!child.material_of_parent) continue;
+      object.material_for_objects = true;
+      if (config.asset || config.has_material) continue;
+      errors_.add(child.place, "material: parent, but '" + config.name + "' has no material");
     }
     return object;
   }
 
-  static CompiledScatter compile_scatter(const ScatterConfig& config,
-                                         const SectionCompiler& section) {
+  /// Uniform over [0, 1].
+  static NumberSource anywhere_in_unit(const Place& place) {
     auto unit = std::make_shared<Distribution>();
     unit->parameters = {number_constant(0.0), number_constant(1.0)};
-    const NumberSource anywhere{config.place, unit};
+    return {place, unit};
+  }
+
+  static void compile_attitude(const ObjectConfig& config, const SectionCompiler& section,
+                               CompiledObject& object) {
+    const NumberSource anywhere = anywhere_in_unit(config.place);
+    if (config.random_rotation) {
+      object.random_rotation = {section.number(anywhere, "rotation[0]"),
+                                section.number(anywhere, "rotation[1]"),
+                                section.number(anywhere, "rotation[2]")};
+    }
+    if (config.quaternion) {
+      object.quaternion.emplace();
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::string key = fmt::format("rotation.quaternion[{}]", i);
+        (*object.quaternion)[i] = section.number((*config.quaternion)[i], key.c_str());
+      }
+    }
+    if (config.rest_stable) object.stable_face = section.number(anywhere, "rest");
+  }
+
+  static CompiledScatter compile_scatter(const ScatterConfig& config,
+                                         const SectionCompiler& section) {
+    const NumberSource anywhere = anywhere_in_unit(config.place);
     return {
         {section.number(config.x[0], "scatter.x[0]"), section.number(config.x[1], "scatter.x[1]")},
         {section.number(config.y[0], "scatter.y[0]"), section.number(config.y[1], "scatter.y[1]")},
         section.number(anywhere, "scatter.x"),
         section.number(anywhere, "scatter.y"),
         section.number(config.gap_m, "scatter.gap_m"),
+        section.level(),
         config.place};
   }
 

@@ -47,6 +47,7 @@ struct CompiledScatter {
   std::array<NumberDraw, 2> x, y;
   NumberDraw x_draw, y_draw;  ///< uniform over [0, 1]
   NumberDraw gap_m;
+  Level level = Level::kScene;  ///< of the draws
   Place place;
 };
 
@@ -59,11 +60,17 @@ struct CompiledObject {
   std::optional<CompiledGrid> grid;
   std::optional<NameDraw> asset;
   std::optional<NameDraw> category;
+  std::map<std::string, PlacedName> category_of_asset;  ///< instead of category
   CompiledMaterials materials;
+  bool material_of_parent = false;    ///< instead of `materials`
+  bool material_for_objects = false;  ///< one of `objects` takes it
   std::map<std::string, CompiledMaterials> slots;
   VectorDraw scale, rotation_deg, position;
+  std::optional<std::array<NumberDraw, 3>> random_rotation;  ///< uniform over [0, 1]
+  std::optional<std::array<NumberDraw, 4>> quaternion;       ///< w, x, y, z
   std::optional<CompiledScatter> scatter;
   bool rest_on_ground = false;
+  std::optional<NumberDraw> stable_face;  ///< uniform over [0, 1]: on which one it rests
   HiddenFrom hidden_from;
   bool auto_detail = false;
   std::vector<CompiledObject> objects;

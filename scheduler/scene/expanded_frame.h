@@ -21,9 +21,10 @@ struct ConstraintTally {
 
 struct ExpandedFrame {
   FrameSpec spec;
-  std::string id;              ///< frame_id(spec), when asked for
-  std::int64_t scene = 0;      ///< index of the scene
-  std::int64_t view = 0;       ///< index of the frame within its scene
+  std::string id;          ///< frame_id(spec), when asked for
+  std::int64_t scene = 0;  ///< index of the scene
+  std::int64_t view = 0;   ///< index of the frame within its scene
+  Affine world_from_camera = Affine::Identity();
   std::uint32_t attempts = 1;  ///< to meet the constraints
   std::vector<Draw> draws;     ///< when asked for
   Json graph;                  ///< the values of all variables, when asked for

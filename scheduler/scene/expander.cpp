@@ -176,7 +176,9 @@ FrameDraft SceneExpander::Program::draft_frame(UsedFiles used, EvaluationContext
   spec.labels.source = settings_.labels;
   if (compiled_.ground) ground_.add(*compiled_.ground, materials_, draft, context);
   placer_.place_all(compiled_, materials_, draft, context);
+  lower_flush_ground(draft);
   const Affine world_from_camera = place_camera(compiled_, draft, context);
+  draft.world_from_camera = world_from_camera;
   add_lights(compiled_, world_from_camera, draft, context);
   set_world(compiled_.world, world_from_camera, materials_, draft, context);
   check_cut_outs(spec, context);
@@ -209,11 +211,17 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
   FrameDraft draft;
   const auto most = static_cast<std::uint32_t>(config_.max_attempts);
   for (; context.frame_attempt < most; ++context.frame_attempt) {
-    result.draws.clear();
-    context.record = wishes.draws ? &result.draws : nullptr;
-    result.graph = wishes.graph ? Json::object() : Json();
-    context.graph = wishes.graph ? &result.graph : nullptr;
-    draft = draft_frame(std::move(draft.used), context);
+    do {
+      result.draws.clear();
+      context.record = wishes.draws ? &result.draws : nullptr;
+      result.graph = wishes.graph ? Json::object() : Json();
+      context.graph = wishes.graph ? &result.graph : nullptr;
+      draft = draft_frame(std::move(draft.used), context);
+    } while (context.take_next_layout());
+    if (context.crowded == Level::kFrame && context.frame_attempt + 1 < most) {
+      context.forget_error();
+      continue;
+    }
     if (context.error) return tl::unexpected(*context.error);
     unmet = checker_->first_unmet(draft, context, result.constraints);
     if (context.error) return tl::unexpected(*context.error);
@@ -244,6 +252,7 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
   placer_.choose_levels(draft, context);
   if (context.error) return tl::unexpected(*context.error);
   result.attempts = context.frame_attempt + 1;
+  result.world_from_camera = draft.world_from_camera;
   result.spec = std::move(draft.spec);
   result.used = std::move(draft.used);
   result.spec.instances.reserve(draft.placed.size());

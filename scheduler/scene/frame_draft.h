@@ -28,6 +28,7 @@ struct PlacedInstance {
 
 struct FrameDraft {
   FrameSpec spec;
+  Affine world_from_camera = Affine::Identity();
   std::vector<PlacedInstance> placed;
   int objects = 0;                      ///< placed, without the ground
   double ground_curvature_per_m = 0.0;  ///< z = curvature · (x² + y²) / 2

@@ -26,4 +26,11 @@ class GroundMaker {
   LastMade<Shape, GroundMesh> last_;
 };
 
+inline constexpr double kFlushGroundDrop_m = 1e-4;
+
+/// Where a face of an object lies in the plane of a level ground and could be seen there — a table
+/// top at z = 0, a sheet on the floor — neither would be seen before the other: the ground gives
+/// way, by 0.1 mm. Undersides of what stands on it are hidden, and change nothing.
+void lower_flush_ground(FrameDraft& draft);
+
 }  // namespace seedframe

@@ -1,8 +1,11 @@
 #include "scene/object_placer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
+
+#include <fmt/ranges.h>
 
 #include "base/nearest_name.h"
 #include "scene/grid.h"
@@ -25,13 +28,16 @@ void scatter(const CompiledScatter& scatter, double radius,
     context.report(scatter.place, "x and y want [least, most] with least <= most");
     return;
   }
+  const std::uint32_t first =
+      scatter.level == Level::kFrame ? 0 : context.layout * kAttemptsOfLayout;
+  context.placement_attempt = first;
   auto* const record = std::exchange(context.record, nullptr);  // rejected draws would confuse
   const auto draw = [&] {
     position.x() = x[0] + (x[1] - x[0]) * scatter.x_draw.evaluate(context);
     position.y() = y[0] + (y[1] - y[0]) * scatter.y_draw.evaluate(context);
   };
   bool found = false;
-  while (!found && context.placement_attempt < kPlacementAttempts) {
+  while (!found && context.placement_attempt - first < kPlacementAttempts) {
     draw();
     found = is_clear({position.x(), position.y(), radius}, footprints, gap);
     if (!found) ++context.placement_attempt;
@@ -40,9 +46,10 @@ void scatter(const CompiledScatter& scatter, double radius,
   if (found && record != nullptr) draw();
   context.placement_attempt = 0;
   if (!found) {
+    if (!context.error) context.crowded = scatter.level;
     context.report(scatter.place,
-                   fmt::format("no free place was found in {} attempts: enlarge x and y, or lower "
-                               "count, scale or gap_m",
+                   fmt::format("no free place was found in {} attempts, nor with all places drawn "
+                               "anew: enlarge x and y, or lower count, scale or gap_m",
                                kPlacementAttempts));
   }
 }
@@ -58,6 +65,42 @@ std::uint32_t copy_for_draws(std::uint32_t parent, std::uint32_t copy, const Pla
     return 0;
   }
   return parent * kMostCopiesInGroup + copy;
+}
+
+Eigen::Matrix3d rotation_of(const CompiledObject& object, EvaluationContext& context) {
+  if (object.random_rotation) {
+    const auto& uniform = *object.random_rotation;
+    return rotation_of_quaternion(
+        random_quaternion({uniform[0].evaluate(context), uniform[1].evaluate(context),
+                           uniform[2].evaluate(context)}));
+  }
+  if (!object.quaternion) {
+    return rotation_and_scale(object.rotation_deg.evaluate(context), Eigen::Vector3d::Ones());
+  }
+  std::array<double, 4> wxyz{};
+  double length = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    wxyz[i] = (*object.quaternion)[i].evaluate(context);
+    length = std::hypot(length, wxyz[i]);
+  }
+  constexpr double kLeast = 1e-6, kMost = 1e6;
+  if (!(length >= kLeast && length <= kMost)) {
+    context.report(object.place, fmt::format("a quaternion needs a length above 0, found [{}]",
+                                             fmt::join(wxyz, ", ")));
+    return Eigen::Matrix3d::Identity();
+  }
+  return rotation_of_quaternion(wxyz);
+}
+
+/// Empty: none.
+std::string category_of(const CompiledObject& object, const Asset& asset,
+                        EvaluationContext& context) {
+  if (object.category) return object.category->evaluate(context);
+  if (object.category_of_asset.empty()) return asset.category;
+  const auto found = object.category_of_asset.find(asset.name);
+  if (found != object.category_of_asset.end()) return found->second.name;
+  context.report(object.place, "category says nothing of the asset '" + asset.name + "'");
+  return {};
 }
 
 /// Numbers within which neither a pose nor its inverse leaves what doubles can hold, squared.
@@ -88,15 +131,36 @@ void ObjectPlacer::check_names(const CompiledObject& object, Diagnostics& errors
     errors.add(entry.second.place, "no asset of '" + object.name + "' has a material slot '" +
                                        entry.first + "'" + did_you_mean(entry.first, slots));
   }
-  if (!object.category) return;
-  for (const std::string& name :
-       object.category->possible_values().value_or(std::vector<std::string>())) {
-    if (name == "none" ||
-        std::find(categories_.begin(), categories_.end(), name) != categories_.end()) {
-      continue;
+  check_categories(object, names, errors);
+}
+
+void ObjectPlacer::check_categories(const CompiledObject& object,
+                                    const std::optional<std::vector<std::string>>& assets,
+                                    Diagnostics& errors) const {
+  const auto check = [&](const std::string& name, const Place& place) {
+    const bool known = name == "none" ||
+                       std::find(categories_.begin(), categories_.end(), name) != categories_.end();
+    if (known) return;
+    errors.add(place, "'" + name + "' is not among the campaign's categories" +
+                          did_you_mean(name, categories_));
+  };
+  if (object.category) {
+    for (const std::string& name :
+         object.category->possible_values().value_or(std::vector<std::string>())) {
+      check(name, object.category->place());
     }
-    errors.add(object.category->place(), "'" + name + "' is not among the campaign's categories" +
-                                             did_you_mean(name, categories_));
+  }
+  for (const auto& [asset, category] : object.category_of_asset) {
+    check(category.name, category.place);
+    if (assets && std::find(assets->begin(), assets->end(), asset) == assets->end()) {
+      errors.add(category.place,
+                 "the object's asset is never '" + asset + "'" + did_you_mean(asset, *assets));
+    }
+  }
+  if (object.category_of_asset.empty() || !assets) return;
+  for (const std::string& asset : *assets) {
+    if (object.category_of_asset.contains(asset)) continue;
+    errors.add(object.place, "category says nothing of the asset '" + asset + "'");
   }
 }
 
@@ -143,14 +207,15 @@ void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3
     asset = load_asset(object.asset->evaluate(context), object.asset->place(), pass);
     if (!asset) return;
   }
-  const Eigen::Vector3d rotation = object.rotation_deg.evaluate(context);
+  Eigen::Matrix3d rotation = rotation_of(object, context);
   const Eigen::Vector3d scale = object.scale.evaluate(context);
   if (scale.minCoeff() <= 0.0) {
     context.report(object.scale.place(),
                    fmt::format("scale must be above 0, found {}", scale.minCoeff()));
     return;
   }
-  const Eigen::Matrix3d linear = rotation_and_scale(rotation, scale);
+  if (object.stable_face) rotation *= stand(object, *asset, scale, context);
+  const Eigen::Matrix3d linear = rotation * scale.asDiagonal();
   Eigen::Vector3d position = object.position.evaluate(context) + offset;
   const double radius = asset ? footprint_radius(asset->box.low, asset->box.high, linear) : 0.0;
   if (object.scatter) scatter(*object.scatter, radius, parent.footprints, position, context);
@@ -159,7 +224,7 @@ void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3
   parent_from_object.linear() = linear;
   parent_from_object.translation() = position;
   Affine parent_from_unscaled = parent_from_object;
-  parent_from_unscaled.linear() = rotation_and_scale(rotation, Eigen::Vector3d::Ones());
+  parent_from_unscaled.linear() = rotation;
   if (object.rest_on_ground) {
     const double lowest = asset ? asset->lowest_z(linear) : 0.0;
     const double curvature = parent.copy == kNoIndex ? pass.draft.ground_curvature_per_m : 0.0;
@@ -172,20 +237,40 @@ void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3
   if (section.copies++ == 0) {
     section.world_from_first = parent.world_from_parent * parent_from_unscaled;
   }
-  if (asset) place_instance(object, asset, name, world_from_object, pass);
+  int material = object.material_of_parent ? parent.material : -1;
+  if (asset) place_instance(object, asset, {name, world_from_object}, material, pass);
   if (object.objects.empty()) return;
-  Parent group{world_from_object, context.copy, name + "/", {}};
+  if (material < 0 && object.material_for_objects) {
+    material = pass.materials.add(object.materials, pass.draft, context);
+  }
+  Parent group{world_from_object, context.copy, name + "/", material, {}};
   for (const CompiledObject& child : object.objects) {
     if (!context.error) place(child, group, pass);
   }
 }
 
+Eigen::Matrix3d ObjectPlacer::stand(const CompiledObject& object, const Asset& asset,
+                                    const Eigen::Vector3d& scale,
+                                    EvaluationContext& context) const {
+  const double drawn = object.stable_face->evaluate(context);
+  const auto faces = stable_poses_->of(asset, scale);
+  if (!faces) {
+    context.report(object.place, faces.error().message);
+    return Eigen::Matrix3d::Identity();
+  }
+  double sum = 0.0;
+  for (const StableFace& face : **faces) {
+    sum += face.probability;
+    if (drawn < sum) return standing_on(face);
+  }
+  return standing_on((*faces)->back());
+}
+
 void ObjectPlacer::place_instance(const CompiledObject& object,
                                   const std::shared_ptr<const Asset>& asset,
-                                  const std::string& name, const Affine& world_from_object,
-                                  Pass& pass) const {
+                                  const Placement& placement, int& material, Pass& pass) const {
   PlacedInstance instance;
-  instance.spec.name = name;
+  instance.spec.name = placement.name;
   instance.spec.id = ++pass.draft.objects;
   if (instance.spec.id > kLargestInstanceId) {
     pass.context.report(object.place,
@@ -195,15 +280,15 @@ void ObjectPlacer::place_instance(const CompiledObject& object,
   instance.spec.asset = asset->name;
   instance.spec.keypoints = asset->keypoints.points;
   instance.spec.mesh = asset->buffer_sha256;
-  instance.spec.materials = slot_materials(object, *asset, pass);
+  instance.spec.materials = slot_materials(object, *asset, material, pass);
   instance.spec.hidden_from = object.hidden_from;
-  if (!is_computable(world_from_object)) {
-    pass.context.report(
-        object.place,
-        fmt::format("'{}' is too large, too small or too far away to compute with", name));
+  if (!is_computable(placement.world_from_object)) {
+    pass.context.report(object.place,
+                        fmt::format("'{}' is too large, too small or too far away to compute with",
+                                    placement.name));
   }
-  instance.world_from_object = world_from_object;
-  instance.centre = world_from_object * asset->box.centre();
+  instance.world_from_object = placement.world_from_object;
+  instance.centre = placement.world_from_object * asset->box.centre();
   instance.section = object.section;
   instance.asset = asset;
   instance.buffer = {asset, &asset->buffer};  // shares the asset's bytes instead of copying them
@@ -229,9 +314,8 @@ void ObjectPlacer::choose_levels(FrameDraft& draft, EvaluationContext& context) 
 }
 
 std::vector<int> ObjectPlacer::slot_materials(const CompiledObject& object, const Asset& asset,
-                                              Pass& pass) {
+                                              int& common, Pass& pass) {
   std::vector<int> materials;
-  int common = -1;  // drawn only if a slot needs it
   for (const std::string& slot : asset.mesh.slot_names) {
     const auto own = object.slots.find(slot);
     if (own != object.slots.end()) {
@@ -246,7 +330,7 @@ std::vector<int> ObjectPlacer::slot_materials(const CompiledObject& object, cons
 
 int ObjectPlacer::category_index(const CompiledObject& object, const Asset& asset,
                                  EvaluationContext& context) const {
-  const std::string name = object.category ? object.category->evaluate(context) : asset.category;
+  const std::string name = category_of(object, asset, context);
   if (name.empty() || name == "none") return 0;
   const auto found = std::find(categories_.begin(), categories_.end(), name);
   if (found == categories_.end()) {

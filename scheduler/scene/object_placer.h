@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/stable_poses.h"
 #include "scene/compiled_config.h"
 #include "scene/frame_draft.h"
 #include "scene/material_picker.h"
@@ -37,6 +38,7 @@ class ObjectPlacer {
     Affine world_from_parent = Affine::Identity();
     std::uint32_t copy = kNoIndex;  ///< as draws know it
     std::string name;               ///< "row/1/", before the names of what is in it
+    int material = -1;              ///< of the spec's, for what takes its parent's
     std::vector<Footprint> footprints;
   };
   struct Pass {  // what one frame's placing carries around
@@ -49,10 +51,24 @@ class ObjectPlacer {
   void place(const CompiledObject& object, Parent& parent, Pass& pass) const;
   void place_copy(const CompiledObject& object, const Eigen::Vector3d& offset,
                   const std::string& name, Parent& parent, Pass& pass) const;
+  struct Placement {
+    const std::string& name;
+    const Affine& world_from_object;
+  };
+  /// `material`: see slot_materials.
   void place_instance(const CompiledObject& object, const std::shared_ptr<const Asset>& asset,
-                      const std::string& name, const Affine& world_from_object, Pass& pass) const;
+                      const Placement& placement, int& material, Pass& pass) const;
+  /// The rotation that puts an asset onto one of its stable faces, which is drawn.
+  Eigen::Matrix3d stand(const CompiledObject& object, const Asset& asset,
+                        const Eigen::Vector3d& scale, EvaluationContext& context) const;
+  /// `common`, the material of slots without one of their own, is drawn if a slot needs it and it
+  /// is -1.
   static std::vector<int> slot_materials(const CompiledObject& object, const Asset& asset,
-                                         Pass& pass);
+                                         int& common, Pass& pass);
+  /// `assets`: those that the object may have, if that is known.
+  void check_categories(const CompiledObject& object,
+                        const std::optional<std::vector<std::string>>& assets,
+                        Diagnostics& errors) const;
   int category_index(const CompiledObject& object, const Asset& asset,
                      EvaluationContext& context) const;
   std::shared_ptr<const Asset> load_asset(const std::string& name, const Place& place,
@@ -60,6 +76,7 @@ class ObjectPlacer {
 
   AssetLibrary assets_;
   std::vector<std::string> categories_;
+  std::unique_ptr<StablePoses> stable_poses_ = std::make_unique<StablePoses>();
 };
 
 }  // namespace seedframe

@@ -21,6 +21,11 @@ Status add_offers(const CompiledObject& object, const AssetLibrary& assets,
       offered.insert(possible.begin(), possible.end());
       continue;
     }
+    if (!object.category_of_asset.empty()) {
+      const auto found = object.category_of_asset.find(name);
+      if (found != object.category_of_asset.end()) offered.insert(found->second.name);
+      continue;
+    }
     const auto asset = assets.load(name);
     if (!asset) return forward_error(asset);
     offered.insert((*asset)->category);

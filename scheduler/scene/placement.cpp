@@ -34,6 +34,29 @@ Eigen::Matrix3d rotation_and_scale(const Eigen::Vector3d& rotation_deg,
   return rz * ry * rx * scale.asDiagonal();
 }
 
+Eigen::Matrix3d rotation_of_quaternion(const std::array<double, 4>& wxyz) {
+  const double length =
+      std::sqrt(wxyz[0] * wxyz[0] + wxyz[1] * wxyz[1] + wxyz[2] * wxyz[2] + wxyz[3] * wxyz[3]);
+  const double w = wxyz[0] / length;
+  const double x = wxyz[1] / length;
+  const double y = wxyz[2] / length;
+  const double z = wxyz[3] / length;
+  Eigen::Matrix3d rotation;
+  rotation << 1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),  //
+      2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),          //
+      2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y);
+  return rotation;
+}
+
+std::array<double, 4> random_quaternion(const std::array<double, 3>& uniform) {
+  const double a = std::sqrt(1.0 - uniform[0]);
+  const double b = std::sqrt(uniform[0]);
+  const double alpha = 2.0 * portable::kPi * uniform[1];
+  const double beta = 2.0 * portable::kPi * uniform[2];
+  return {b * portable::cos(beta), a * portable::sin(alpha), a * portable::cos(alpha),
+          b * portable::sin(beta)};
+}
+
 Affine looking_at(const Eigen::Vector3d& position, const Eigen::Vector3d& target, double roll_deg) {
   const Eigen::Vector3d z = (position - target).normalized();
   Eigen::Vector3d x = Eigen::Vector3d::UnitZ().cross(z);

@@ -2,6 +2,7 @@
 // away, z up.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "spec/frame_spec.h"
@@ -12,6 +13,13 @@ namespace seedframe {
 /// order): R_z · R_y · R_x · diag(scale).
 Eigen::Matrix3d rotation_and_scale(const Eigen::Vector3d& rotation_deg,
                                    const Eigen::Vector3d& scale);
+
+/// Of a quaternion w + xi + yj + zk, whatever its length, which is above 0.
+Eigen::Matrix3d rotation_of_quaternion(const std::array<double, 4>& wxyz);
+
+/// Evenly spread over all rotations, if three numbers are over [0, 1]: K. Shoemake, "Uniform random
+/// rotations", Graphics Gems III, 1992.
+std::array<double, 4> random_quaternion(const std::array<double, 3>& uniform);
 
 /// World from a frame that looks from `position` at `target` down its -z, with its y as near to up
 /// as can be; looking straight up or down, y points away (world y). Turned by roll_deg about the

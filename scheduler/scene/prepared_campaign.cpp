@@ -68,7 +68,9 @@ Result<PreparedCampaign> prepare(CampaignSource source) {
   Result<SceneExpander> expander =
       SceneExpander::compile(*config, std::move(*assets), std::move(*materials), std::move(graphs));
   if (!expander) return forward_error(expander);
-  return PreparedCampaign{std::move(source), settings_of(*config), std::move(inputs),
+  CampaignSettings settings = settings_of(*config);
+  settings.input_folders = source.allowed.folders();
+  return PreparedCampaign{std::move(source), std::move(settings), std::move(inputs),
                           std::move(*expander)};
 }
 

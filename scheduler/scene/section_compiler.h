@@ -18,6 +18,8 @@ class SectionCompiler {
   SectionCompiler(const CompileScope& scope, std::string section, Level level, Diagnostics& errors)
       : scope_(scope), section_(std::move(section)), level_(level), errors_(errors) {}
 
+  Level level() const { return level_; }
+
   NumberDraw number(const NumberSource& source, const char* key) const {
     return NumberDraw::compile(source, scope_, name(key), level_, errors_);
   }

@@ -86,6 +86,14 @@ TEST(NearestName, FindsTyposAndNothingElse) {
   EXPECT_EQ(nearest_name("colour", names), "");
   EXPECT_EQ(did_you_mean("smaples", names), " (did you mean 'samples'?)");
   EXPECT_EQ(did_you_mean("colour", names), " (there are: samples, width, height)");
+  EXPECT_EQ(did_you_mean("z", {"x", "y"}), " (there are: x, y)");
+  const std::vector<std::string> longer = {"coco", "yolo-detect", "yolo-obb", "rotation_deg",
+                                           "yolos"};
+  EXPECT_EQ(did_you_mean("olo", longer),
+            " (there are: coco, yolo-detect, yolo-obb, rotation_deg, yolos)");
+  EXPECT_EQ(did_you_mean("rotation", longer), " (did you mean 'rotation_deg'?)");
+  EXPECT_EQ(did_you_mean("yolo", {"coco", "yolo-detect", "yolo-obb", "yolo-pose"}),
+            " (did you mean 'yolo-detect', 'yolo-obb' or 'yolo-pose'?)");
 }
 
 }  // namespace

@@ -117,6 +117,13 @@ TEST_F(GraphsTest, AListHasAValueForEachCopyAndASingleValueIsForAll) {
   EXPECT_EQ(graph.at("objects.boxes.objects.lids.tilt"), Json({1.0, 2.0, 3.0, 4.0}));
 }
 
+TEST_F(GraphsTest, AListOfOneIsForOneCopy) {
+  EXPECT_THAT(
+      error(R"({"objects.boxes.spin": [10]})"),
+      HasSubstr("the graph gives 'objects.boxes.spin' a list of 1, but there are more copies; "
+                "for all of them, give the value without []"));
+}
+
 TEST_F(GraphsTest, ValuesThatAreGivenAreNotDrawn) {
   const auto all = frames("{\"reach\": 1}\n{}\n");
   EXPECT_FALSE(draws_by_name(all[0]).contains("variables.scene.reach"));
@@ -208,7 +215,7 @@ TEST_F(GraphsTest, ALongValueIsNotRepeatedInFull) {
 
 TEST_F(GraphsTest, AListThatIsTooShortIsAnErrorOfTheFrame) {
   EXPECT_THAT(error(R"({"objects.boxes.objects.lids.tilt": [1, 2, 3]})"),
-              HasSubstr("the graph gives 'objects.boxes.objects.lids.tilt' 3 values, but there are "
+              HasSubstr("the graph gives 'objects.boxes.objects.lids.tilt' a list of 3, but there are "
                         "more copies"));
 }
 

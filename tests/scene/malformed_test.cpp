@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "config/campaign_config.h"
 #include "scene/expander.h"
+#include "scene/material_library.h"
 #include "tests/config/config_mutations.h"
 #include "tests/fixtures/scratch_folder.h"
 
