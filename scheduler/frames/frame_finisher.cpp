@@ -17,8 +17,9 @@ namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
 
-Grazes grazes_of(const Twin& twin) {
-  return [&twin](int row, int column, std::uint16_t id) { return twin.grazes(row, column, id); };
+Rounding rounding_of(const Twin& twin) {
+  return {[&](int row, int column, std::uint16_t id) { return twin.grazes(row, column, id); },
+          [&](int row, int column, std::uint16_t id) { return twin.coincides(row, column, id); }};
 }
 
 /// Moves what was rendered out of the attempt's folder, which goes, and puts beside it what it
@@ -38,7 +39,7 @@ Status keep_rejected(const FinishTask& task, const Image<std::uint16_t>& rendere
   writer.write(frame_files::kInstances, encode_png(rendered));
   writer.write(frame_files::kTwin, encode_png(twin.instance_ids));
   writer.write(frame_files::kDifference,
-               encode_png(difference_image(rendered, twin.instance_ids, grazes_of(twin))));
+               encode_png(difference_image(rendered, twin.instance_ids, rounding_of(twin))));
   writer.write(frame_files::kReason, reason + "\n");
   return writer.status();
 }
@@ -47,7 +48,7 @@ Result<TwinTally> check_with_twin(const FinishTask& task, const TwinCheck& check
                                   const Image<std::uint16_t>& rendered, const Twin& twin) {
   if (!check.wanted || !task.spec.labels.twin_exact) return TwinTally{};
   const TwinVerdict verdict =
-      compare_with_twin(task.spec, rendered, twin.instance_ids, check.tolerance, grazes_of(twin));
+      compare_with_twin(task.spec, rendered, twin.instance_ids, check.tolerance, rounding_of(twin));
   if (verdict.complaint.empty()) return verdict.tally;
   if (Status kept = keep_rejected(task, rendered, twin, verdict.complaint); !kept) {
     return forward_error(kept);

@@ -85,6 +85,30 @@ int RayScene::first_hit(int x, int y, const std::array<double, 2>& offset_px) co
   return packet.hit(0);
 }
 
+std::vector<int> RayScene::first_hits(int x, int y) const {
+  constexpr double kRounding = 1e-5;
+  std::vector<int> met;
+  const PixelCamera& camera = scene_->camera;
+  RayPacket packet(camera);
+  packet.aim_lane(0, camera.ray_x(x), camera.ray_y(y));
+  packet.find_first_hits(scene_->all);
+  const int first = packet.hit(0);
+  if (first < 0) return met;
+  const double depth = packet.depth(0);
+  for (std::size_t i = 0; i < scene_->instances.size(); ++i) {
+    const PixelRect& rect = scene_->boxes[i].rect();
+    const bool possible = scene_->instances[i].seen && x >= rect.x && x < rect.end_x() &&
+                          y >= rect.y && y < rect.end_y();
+    if (static_cast<int>(i) != first) {
+      if (!possible) continue;
+      packet.find_first_hits(scene_->only(i));
+      if (packet.hit(0) < 0 || packet.depth(0) - depth > kRounding * depth) continue;
+    }
+    met.push_back(static_cast<int>(i));
+  }
+  return met;
+}
+
 bool RayScene::hides(const Eigen::Vector3d& point, double tolerance_m, int transparent) const {
   const double distance = point.norm();
   RTCRayHit ray{};

@@ -90,6 +90,13 @@ bool Twin::grazes(int row, int column, std::uint16_t id) const {
   });
 }
 
+bool Twin::coincides(int row, int column, std::uint16_t id) const {
+  const std::vector<int> met = scene_.first_hits(column, row);
+  return std::any_of(met.begin(), met.end(), [&](int instance) {
+    return ids_[static_cast<std::size_t>(instance)] == static_cast<int>(id);
+  });
+}
+
 std::vector<Silhouette> Twin::silhouettes(const Image<std::uint16_t>& visible_ids) const {
   std::vector<Silhouette> silhouettes(ids_.size());
   if (visible_ids.values == instance_ids.values) {

@@ -39,6 +39,14 @@ class Twin {
   /// then rounding decides which id the pixel gets.
   bool grazes(int row, int column, std::uint16_t id) const;
 
+  /// Whether this id's surface coincides, in the pixel's centre, with what the twin sees there:
+  /// then rounding decides too.
+  bool coincides(int row, int column, std::uint16_t id) const;
+
+  /// Of the instances that rounding decides between in the pixel's centre; see
+  /// RayScene::first_hits.
+  std::vector<int> first_hits(int row, int column) const { return scene_.first_hits(column, row); }
+
   /// Of an instance's mesh, in object space, metres.
   const BoundingBox& object_box(std::size_t instance) const { return object_boxes_[instance]; }
 

@@ -24,17 +24,19 @@ bool near(const Ids& image, int row, int column, std::uint16_t id) {
   return false;
 }
 
-enum class Difference : std::uint8_t { kNone = 0, kEdge = 128, kInside = 255 };
+enum class Difference : std::uint8_t { kNone = 0, kCoincident = 64, kEdge = 128, kInside = 255 };
 
 /// At an edge each image has the other's id beside the pixel; or it is a glimpse of something that
 /// is smaller than a pixel.
 Difference difference(const Ids& rendered, const Ids& twin, int row, int column,
-                      const Grazes& grazes) {
+                      const Rounding& rounding) {
   const std::uint16_t r = rendered.at(row, column);
   const std::uint16_t t = twin.at(row, column);
   if (r == t) return Difference::kNone;
+  if (rounding.coincides && rounding.coincides(row, column, r)) return Difference::kCoincident;
   const bool edge = near(rendered, row, column, t) && near(twin, row, column, r);
-  return edge || (grazes && grazes(row, column, r)) ? Difference::kEdge : Difference::kInside;
+  const bool grazed = rounding.grazes && rounding.grazes(row, column, r);
+  return edge || grazed ? Difference::kEdge : Difference::kInside;
 }
 
 /// Pixels of one id.
@@ -54,7 +56,8 @@ bool on_outline(const Ids& image, int row, int column) {
 }
 
 /// By id. Called only for images that differ, which are few.
-std::vector<IdTally> tally_ids(const Ids& rendered, const Ids& twin) {
+std::vector<IdTally> tally_ids(const Ids& rendered, const Ids& twin,
+                               const Image<std::uint8_t>& differences) {
   std::vector<IdTally> tallies(kIds);
   for (int row = 0; row < twin.height; ++row) {
     for (int column = 0; column < twin.width; ++column) {
@@ -63,7 +66,8 @@ std::vector<IdTally> tally_ids(const Ids& rendered, const Ids& twin) {
       ++tallies[r].rendered;
       ++tallies[t].traced;
       if (on_outline(twin, row, column)) ++tallies[t].outline;
-      if (r == t) continue;
+      const auto found = static_cast<Difference>(differences.at(row, column));
+      if (found == Difference::kNone || found == Difference::kCoincident) continue;
       ++tallies[r].differing;
       ++tallies[t].differing;
     }
@@ -101,20 +105,19 @@ constexpr const char* kHint =
 }  // namespace
 
 TwinVerdict compare_with_twin(const FrameSpec& spec, const Ids& rendered, const Ids& twin,
-                              const TwinTolerance& tolerance, const Grazes& grazes) {
+                              const TwinTolerance& tolerance, const Rounding& rounding) {
   assert(rendered.width == twin.width && rendered.height == twin.height);
   TwinVerdict verdict;
   TwinTally& tally = verdict.tally;
   tally.pixels = static_cast<std::int64_t>(twin.values.size());
   if (rendered.values == twin.values) return verdict;
-  for (int row = 0; row < twin.height; ++row) {
-    for (int column = 0; column < twin.width; ++column) {
-      const Difference found = difference(rendered, twin, row, column, grazes);
-      if (found == Difference::kEdge) ++tally.edge_px;
-      if (found == Difference::kInside) ++tally.inside_px;
-    }
+  const Image<std::uint8_t> differences = difference_image(rendered, twin, rounding);
+  for (const std::uint8_t value : differences.values) {
+    const auto found = static_cast<Difference>(value);
+    if (found == Difference::kEdge || found == Difference::kCoincident) ++tally.edge_px;
+    if (found == Difference::kInside) ++tally.inside_px;
   }
-  const std::vector<IdTally> tallies = tally_ids(rendered, twin);
+  const std::vector<IdTally> tallies = tally_ids(rendered, twin, differences);
   const double allowed = tolerance.inside_share * static_cast<double>(tally.pixels);
   if (static_cast<double>(tally.inside_px) > allowed) {
     const std::size_t worst = worst_id(tallies);
@@ -137,12 +140,13 @@ TwinVerdict compare_with_twin(const FrameSpec& spec, const Ids& rendered, const 
   return verdict;
 }
 
-Image<std::uint8_t> difference_image(const Ids& rendered, const Ids& twin, const Grazes& grazes) {
+Image<std::uint8_t> difference_image(const Ids& rendered, const Ids& twin,
+                                     const Rounding& rounding) {
   Image<std::uint8_t> image(twin.width, twin.height);
   for (int row = 0; row < twin.height; ++row) {
     for (int column = 0; column < twin.width; ++column) {
       image.at(row, column) =
-          static_cast<std::uint8_t>(difference(rendered, twin, row, column, grazes));
+          static_cast<std::uint8_t>(difference(rendered, twin, row, column, rounding));
     }
   }
   return image;

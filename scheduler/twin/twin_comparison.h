@@ -17,16 +17,22 @@ struct TwinVerdict {
   std::string complaint;
 };
 
-/// Whether the twin sees an id very near a pixel's centre; Twin::grazes.
-using Grazes = std::function<bool(int row, int column, std::uint16_t id)>;
+/// What rounding may make of a pixel.
+struct Rounding {
+  using Test = std::function<bool(int row, int column, std::uint16_t id)>;
+  Test grazes;     ///< whether the twin sees an id very near the pixel's centre; Twin::grazes
+  Test coincides;  ///< whether an id's surface is where the twin's is; Twin::coincides
+};
 
-/// Both images are of the spec's size. Without `grazes`, no pixel is grazed.
+/// Both images are of the spec's size. What `rounding` lacks is nowhere so. Pixels where surfaces
+/// coincide are told with those of edges, and are no complaint.
 TwinVerdict compare_with_twin(const FrameSpec& spec, const Image<std::uint16_t>& rendered,
                               const Image<std::uint16_t>& twin, const TwinTolerance& tolerance,
-                              const Grazes& grazes = {});
+                              const Rounding& rounding = {});
 
-/// Grey: 0 where the images agree, 128 at edges, 255 inside.
+/// Grey: 0 where the images agree, 64 where surfaces coincide, 128 at edges, 255 inside.
 Image<std::uint8_t> difference_image(const Image<std::uint16_t>& rendered,
-                                     const Image<std::uint16_t>& twin, const Grazes& grazes = {});
+                                     const Image<std::uint16_t>& twin,
+                                     const Rounding& rounding = {});
 
 }  // namespace seedframe

@@ -54,10 +54,28 @@ TEST(TwinComparison, AGlimpseOfSomethingSmallerThanAPixelIsAnEdge) {
   const auto grazes = [](int row, int column, std::uint16_t id) {
     return row == 40 && column == 40 && id == 7;
   };
-  EXPECT_EQ(compare_with_twin(spec_of_two(), rendered, twin, kDefault, grazes).tally,
+  EXPECT_EQ(compare_with_twin(spec_of_two(), rendered, twin, kDefault,
+                              {.grazes = grazes, .coincides = {}})
+                .tally,
             (TwinTally{160 * 120, 1, 1}));
-  EXPECT_EQ(difference_image(rendered, twin, grazes).at(40, 40), 128);
-  EXPECT_EQ(difference_image(rendered, twin, grazes).at(50, 50), 255);
+  EXPECT_EQ(difference_image(rendered, twin, {.grazes = grazes, .coincides = {}}).at(40, 40), 128);
+  EXPECT_EQ(difference_image(rendered, twin, {.grazes = grazes, .coincides = {}}).at(50, 50), 255);
+}
+
+TEST(TwinComparison, WhereSurfacesCoincideEitherIsRight) {
+  const Ids twin = with_rectangle(40, 40, 20, 20, 7, with_rectangle(20, 20, 60, 50, 3));
+  const Ids rendered = with_rectangle(20, 20, 60, 50, 3);
+  const auto coincides = [](int row, int column, std::uint16_t id) {
+    return id == 3 && row >= 40 && row < 60 && column >= 40 && column < 60;
+  };
+  const Rounding rounding = {.grazes = {}, .coincides = coincides};
+  EXPECT_FALSE(compare_with_twin(spec_of_two(), rendered, twin, kDefault).complaint.empty());
+  const TwinVerdict verdict = compare_with_twin(spec_of_two(), rendered, twin, kDefault, rounding);
+  EXPECT_THAT(verdict.complaint, IsEmpty());
+  EXPECT_EQ(verdict.tally, (TwinTally{160 * 120, 0, 400}));
+  EXPECT_EQ(difference_image(rendered, twin, rounding).at(45, 45), 64);
+  const Ids other = with_rectangle(40, 40, 20, 20, 0, twin);  // a hole is none of the two
+  EXPECT_FALSE(compare_with_twin(spec_of_two(), other, twin, kDefault, rounding).complaint.empty());
 }
 
 TEST(TwinComparison, AHoleInAnInstanceIsInside) {

@@ -92,6 +92,23 @@ TEST(Twin, KnowsWhatAPixelGrazes) {
   EXPECT_FALSE(twin->grazes(59, 91, 3));
 }
 
+TEST(Twin, KnowsWhichSurfacesCoincide) {
+  FrameSpec spec = empty_spec();
+  // Fronts at one depth, 1 µm and 1 mm behind it; the last one stands beside them.
+  spec.instances = {cube_at(cube(), 3, 0, 0, -11), cube_at(cube(), 7, 0.5, 0, -11.000001),
+                    cube_at(cube(), 9, 0.5, 0, -11.001), cube_at(cube(), 11, -2.5, 0, -11)};
+  const auto twin = TwinTracer().trace(spec, cube().buffers, kIdsOnly);
+  ASSERT_TRUE(twin);
+  const int middle = spec.render.width / 2;
+  const int row = spec.render.height / 2;
+  EXPECT_EQ(twin->first_hits(row, middle), (std::vector<int>{0, 1}));
+  EXPECT_TRUE(twin->coincides(row, middle, 3));
+  EXPECT_TRUE(twin->coincides(row, middle, 7));
+  EXPECT_FALSE(twin->coincides(row, middle, 9));
+  EXPECT_FALSE(twin->coincides(row, middle, 11));
+  EXPECT_TRUE(twin->first_hits(0, 0).empty());
+}
+
 TEST(Twin, FromTheInsideNormalsPointToTheCameraToo) {
   FrameSpec spec = empty_spec();
   spec.render.normal = true;
