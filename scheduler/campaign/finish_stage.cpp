@@ -30,6 +30,8 @@ void FinishStage::begin(const FrameJob& job, int worker, const std::string& prov
 void FinishStage::fail(const FrameJob& job, AttemptFailure failure) {
   std::error_code ignored;
   fs::remove_all(campaign_.files.attempt(job.frame, job.attempt), ignored);
+  fs::remove_all(campaign_.files.workers() / CampaignFiles::attempt_name(job.frame, job.attempt),
+                 ignored);
   writer_->push(AttemptFailed{job, std::move(failure)});
 }
 

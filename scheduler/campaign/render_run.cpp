@@ -6,6 +6,7 @@
 #include "campaign/disk_space.h"
 #include "campaign/worker_requests.h"
 #include "frames/rendered_frame.h"
+#include "frames/take_rendered.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -15,7 +16,7 @@ namespace {
 constexpr int kFinishThreads = 2;
 
 WorkerOptions options_for_workers(const RunOptions& options, const CampaignFiles& files) {
-  return worker_options(options, files.work(),
+  return worker_options(options, files.workers(),
                         [files](int number) { return files.worker_log(number); });
 }
 
@@ -74,7 +75,8 @@ Result<RunSummary> RenderRun::run(const std::vector<PendingFrame>& frames) {
 
 Result<RunSummary> RenderRun::run_once(const std::vector<PendingFrame>& frames,
                                        const FrameIds& found) {
-  for (const fs::path& folder : {campaign_.files.logs(), campaign_.files.work() / "meshes"}) {
+  for (const fs::path& folder :
+       {campaign_.files.logs(), campaign_.files.work() / "meshes", campaign_.files.workers()}) {
     if (Status made = make_folders(folder); !made) return forward_error(made);
   }
   if (Status opened = stage_.open(); !opened) return forward_error(opened);
@@ -185,14 +187,15 @@ Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
   const Result<bool> taken = take(job, expanded->id);
   if (!taken) return forward_error(taken);
   if (*taken) return std::nullopt;
-  const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
-  if (Status made = make_folders(attempt); !made) return forward_error(made);
+  const CampaignFiles& files = campaign_.files;
+  const fs::path given = files.workers() / CampaignFiles::attempt_name(job.frame, job.attempt);
+  if (Status made = make_folders(given); !made) return forward_error(made);
   Result<RenderRequest> request = make_render_request(
-      *expanded, rendered_passes(attempt),
+      *expanded, rendered_passes(given),
       [this](const auto& sha256) { return campaign_.files.mesh_buffer(sha256); });
   if (!request) return forward_error(request);
   tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), std::move(expanded->meshes),
-                 attempt, campaign_.files.rejected(job.frame)};
+                 files.attempt(job.frame, job.attempt), files.rejected(job.frame)};
   return std::move(*request);
 }
 
@@ -225,7 +228,11 @@ void RenderRun::load_view_tables() {
 
 void RenderRun::finish(const FrameJob& job, const RenderTimings& timings, const FinishTask& task) {
   const auto start = std::chrono::steady_clock::now();
-  const Result<FinishedFrame> finished = finisher_.finish(task, *color_);
+  const Status taken =
+      take_rendered(campaign_.files.workers(), CampaignFiles::attempt_name(job.frame, job.attempt),
+                    task.attempt_folder);
+  const Result<FinishedFrame> finished =
+      taken ? finisher_.finish(task, *color_) : forward_error(taken);
   const std::chrono::duration<double> finish_time = std::chrono::steady_clock::now() - start;
   if (!finished) {
     pools_[pool_]->post_verdict(job, forward_error(finished));

@@ -13,14 +13,6 @@
 namespace seedframe {
 namespace {
 
-Status check_view(const CampaignSettings& settings, const ColorManagement& color) {
-  const Status known = color.check(settings.image);
-  if (known) return {};
-  return fail(ErrorKind::kInput, "{}: {}",
-              settings.image_place.file.empty() ? "image" : settings.image_place.text(),
-              known.error().message);
-}
-
 void choose_workers_to_render(RunOptions& options, const CampaignSettings& settings,
                               std::int64_t frames) {
   const RenderSettings& render = settings.render;
@@ -83,6 +75,7 @@ Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
   if (settings.determinism.mode == Determinism::Mode::kPortable) {
     worker.conditions.kernels = kernels_of(settings.determinism.isa);
   }
+  options.input_folders = settings.input_folders;
   choose_workers_to_render(options, settings, frames);
   if (options.sandbox) {
     if (Status works = check_sandbox(); !works) return forward_error(works);
@@ -94,6 +87,14 @@ Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
 }
 
 }  // namespace
+
+Status check_view(const CampaignSettings& settings, const ColorManagement& color) {
+  const Status known = color.check(settings.image);
+  if (known) return {};
+  return fail(ErrorKind::kInput, "{}: {}",
+              settings.image_place.file.empty() ? "image" : settings.image_place.text(),
+              known.error().message);
+}
 
 Result<Renderer> find_renderer(const std::string& program,
                                const std::optional<std::filesystem::path>& ocio_config,

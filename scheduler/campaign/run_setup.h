@@ -28,6 +28,10 @@ Result<Renderer> find_renderer(const std::string& program,
                                const std::optional<std::filesystem::path>& ocio_config,
                                FrameCache* cache);
 
+/// Whether there are the display, view and look that a config asks for; a kInput error names its
+/// line.
+Status check_view(const CampaignSettings& settings, const ColorManagement& color);
+
 /// What belongs to the program, and to its user.
 struct RunPlaces {
   std::filesystem::path scripts;  ///< blender_scripts/

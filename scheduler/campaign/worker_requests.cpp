@@ -32,7 +32,19 @@ WorkerOptions worker_options(const RunOptions& options, const fs::path& work,
   WorkerOptions worker = options.worker;
   worker.log_path = std::move(log_path);
   worker.limits = worker_limits(options);
-  if (options.sandbox) worker.wrapper = sandbox_arguments(work);
+  if (options.sandbox) {
+    std::vector<fs::path> inputs = options.input_folders;
+    inputs.push_back(worker.scripts);
+    inputs.push_back(worker.preload);
+    const BlenderProgram& blender = worker.blender;
+    inputs.push_back(blender.path.parent_path());
+    if (!blender.module
+             .empty()) {  // a virtual environment's bin/python, and what is installed in it
+      inputs.push_back(blender.path.parent_path().parent_path());
+      inputs.push_back(blender.module.parent_path());
+    }
+    worker.wrapper = sandbox_arguments(work, inputs);
+  }
   // A killed Blender leaves its temporary folder behind; here it goes with the rest of work/.
   std::error_code ignored;
   worker.environment.emplace("TMPDIR", fs::absolute(work, ignored).string());

@@ -24,7 +24,11 @@ fs::path CampaignFiles::mesh_buffer(const std::string& sha256) const {
 }
 
 fs::path CampaignFiles::attempt(std::int64_t frame, int attempt) const {
-  return work() / "attempts" / fmt::format("{}-{}", frame_stem(frame), attempt);
+  return work() / "attempts" / attempt_name(frame, attempt);
+}
+
+std::string CampaignFiles::attempt_name(std::int64_t frame, int attempt) {
+  return fmt::format("{}-{}", frame_stem(frame), attempt);
 }
 
 fs::path CampaignFiles::rejected(std::int64_t frame) const {

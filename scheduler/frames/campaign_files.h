@@ -28,13 +28,22 @@ class CampaignFiles {
   /// The last words of a worker that a frame has cost.
   std::filesystem::path crash_log(std::int64_t frame, int attempt) const;
   std::filesystem::path exports() const { return root_ / "exports"; }
+  /// What exports need of the config, and of an asset.
+  std::filesystem::path kept_inputs() const { return root_ / "inputs" / "inputs.json"; }
+  std::filesystem::path kept_asset(const std::string& name) const {
+    return root_ / "inputs" / "assets" / name;
+  }
   /// What was rendered of a frame that is not as its twin sees it, for inspection.
   std::filesystem::path rejected(std::int64_t frame) const;
   /// Scratch space: mesh buffers for the workers and attempts under way. Gone when nothing runs.
   std::filesystem::path work() const { return root_ / "work"; }
   std::filesystem::path disk_probe() const { return work() / "probe"; }
   std::filesystem::path mesh_buffer(const std::string& sha256) const;
+  /// A frame in the making, where no worker gets.
   std::filesystem::path attempt(std::int64_t frame, int attempt) const;
+  /// All that workers may write to: their temporary files, and a folder for each attempt.
+  std::filesystem::path workers() const { return work() / "workers"; }
+  static std::string attempt_name(std::int64_t frame, int attempt);
 
   /// frames/<thousands>/<index>, for example frames/012/012345.
   std::filesystem::path frame(std::int64_t frame) const;

@@ -1,35 +1,38 @@
 #include "render/sandbox.h"
 
+#include <array>
+
 #include "render/child_process.h"
 
 namespace seedframe {
 namespace {
 
 constexpr const char* kProgram = "/usr/bin/bwrap";
+constexpr std::array<const char*, 3> kHidden = {"/tmp", "/run", "/var/tmp"};
 
 }  // namespace
 
-std::vector<std::string> sandbox_arguments(const std::filesystem::path& output) {
+std::vector<std::string> sandbox_arguments(const std::filesystem::path& output,
+                                           const std::vector<std::filesystem::path>& readable) {
   std::error_code error;
   const std::string folder = std::filesystem::absolute(output, error).string();
-  return {kProgram,
-          "--ro-bind",
-          "/",
-          "/",
-          "--dev",
-          "/dev",
-          "--proc",
-          "/proc",
-          "--bind",
-          folder,
-          folder,
-          "--unshare-net",
-          "--unshare-pid",
-          "--unshare-ipc",
-          "--unshare-uts",
-          "--die-with-parent",
-          "--new-session",
-          "--"};
+  std::vector<std::string> arguments = {kProgram, "--ro-bind", "/",      "/",
+                                        "--dev",  "/dev",      "--proc", "/proc"};
+  // Where sockets of other programs are, which a read-only disk would not keep anybody from.
+  for (const char* hidden : kHidden) {
+    arguments.insert(arguments.end(), {"--tmpfs", hidden});
+    for (const std::filesystem::path& path : readable) {
+      const std::string whole = std::filesystem::absolute(path, error).lexically_normal().string();
+      if (!whole.starts_with(std::string(hidden) + "/")) continue;
+      arguments.insert(arguments.end(), {"--ro-bind-try", whole, whole});
+    }
+  }
+  arguments.insert(arguments.end(), {"--bind", folder, folder});
+  // Root keeps its capabilities in namespaces, unless they are dropped.
+  arguments.insert(arguments.end(), {"--cap-drop", "ALL", "--unshare-net", "--unshare-pid",
+                                     "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try",
+                                     "--die-with-parent", "--new-session", "--"});
+  return arguments;
 }
 
 Status check_sandbox() {
@@ -40,7 +43,8 @@ Status check_sandbox() {
                 "--sandbox needs {}, which is missing: install bubblewrap, or leave --sandbox out",
                 kProgram);
   }
-  std::vector<std::string> arguments = sandbox_arguments(std::filesystem::temp_directory_path());
+  std::vector<std::string> arguments =
+      sandbox_arguments(std::filesystem::temp_directory_path(), {});
   arguments.emplace_back("/bin/true");
   const Result<std::string> tried = output_of(arguments, kLongest);
   if (tried) return {};

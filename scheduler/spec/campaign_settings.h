@@ -43,6 +43,7 @@ struct CampaignSettings {
   ImageSettings image;
   ImageEncoding image_encoding;
   std::optional<std::filesystem::path> ocio_config;  ///< none: Blender's own
+  std::vector<std::filesystem::path> input_folders;  ///< that files of frames may lie in
   Place image_place;                                 ///< for errors that only OCIO can find
   LabelSource labels = LabelSource::kIndexPass;
   TwinCheck twin_check;

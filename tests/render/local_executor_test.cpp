@@ -113,12 +113,16 @@ TEST_F(LocalPoolTest, ASandboxedWorkerWritesOnlyWhereItMayAndHasNoNetwork) {
   std::ofstream(script) << "#!/bin/sh\n"
                         << "touch " << (folder / "work/inside").string()
                         << " && echo wrote inside\n"
-                        << "touch " << (folder / "outside").string() << " || echo not outside\n"
+                        << "touch " << SEEDFRAME_HOME << "/outside || echo not outside\n"
                         << "cat /proc/net/dev | grep -c : \n"
+                        << "find /run /var/tmp -mindepth 1 | grep -c . || echo empty\n"
+                        << "grep CapEff /proc/self/status\n"
+                        << "cat " << (folder / "secret").string() << " || echo no secret\n"
                         << "echo process $$\nexit 1\n";
+  std::ofstream(folder / "secret") << "it is known\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
   worker.blender.path = script;
-  worker.wrapper = sandbox_arguments(folder / "work");
+  worker.wrapper = sandbox_arguments(folder / "work", {script, SEEDFRAME_HOME});
   make_pool();
   EXPECT_FALSE(run(1));
   std::ifstream log(folder / "worker-0.log");
@@ -126,14 +130,17 @@ TEST_F(LocalPoolTest, ASandboxedWorkerWritesOnlyWhereItMayAndHasNoNetwork) {
   EXPECT_THAT(text, HasSubstr("wrote inside"));
   EXPECT_THAT(text, HasSubstr("not outside"));
   EXPECT_THAT(text, HasSubstr("\n1\n")) << "the loopback device only";
+  EXPECT_THAT(text, HasSubstr("empty\n")) << "no sockets of other programs";
+  EXPECT_THAT(text, HasSubstr("CapEff:\t0000000000000000")) << "not even root's";
+  EXPECT_THAT(text, HasSubstr("no secret")) << "beside it in /tmp";
   EXPECT_THAT(text, testing::ContainsRegex("process [0-9]\n")) << "processes of its own";
   EXPECT_TRUE(std::filesystem::exists(folder / "work/inside"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "outside"));
+  EXPECT_FALSE(std::filesystem::exists(SEEDFRAME_HOME "/outside"));
 }
 
 TEST_F(LocalPoolTest, ASandboxedWorkerRendersAndDiesWithTheOthers) {
   if (const Status works = check_sandbox(); !works) GTEST_SKIP() << works.error().message;
-  worker.wrapper = sandbox_arguments(folder);
+  worker.wrapper = sandbox_arguments(folder, {SEEDFRAME_HOME});
   options.heartbeat_timeout = std::chrono::seconds(2);
   make_pool({{"crash_frames", {1}}, {"freeze_frames", {2}}});
   const auto summary = run(4);
