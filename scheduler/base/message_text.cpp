@@ -2,7 +2,30 @@
 
 #include <algorithm>
 
+#include "base/utf8.h"
+
 namespace seedframe {
+namespace {
+
+/// Whether a terminal does something else with a character than to show it: control characters, and
+/// those that turn or break what is written around them (UAX #9, bidirectional text; U+2028 and
+/// U+2029).
+bool is_obeyed(std::string_view character) {
+  const auto byte = static_cast<unsigned char>(character[0]);
+  if (character.size() == 1) return (byte < 0x20u && byte != '\n') || byte == 0x7Fu;
+  const auto second = static_cast<unsigned char>(character[1]);
+  if (character.size() == 2) {
+    return (byte == 0xC2u && second <= 0x9Fu) || character == "\u061c";
+  }
+  if (character.size() != 3 || byte != 0xE2u) return false;
+  const auto third = static_cast<unsigned char>(character[2]);
+  const bool marks = second == 0x80u && (third == 0x8Eu || third == 0x8Fu);
+  const bool breaks_and_turns = second == 0x80u && third >= 0xA8u && third <= 0xAEu;
+  const bool isolates = second == 0x81u && third >= 0xA6u && third <= 0xA9u;
+  return marks || breaks_and_turns || isolates;
+}
+
+}  // namespace
 
 std::string shortened(std::string_view text, std::size_t most) {
   if (text.size() <= most) return std::string(text);
@@ -14,27 +37,23 @@ std::string shortened(std::string_view text, std::size_t most) {
 std::string printable(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    // U+0080 to U+009F, in UTF-8 two bytes, are control characters too.
-    const bool wide = byte == 0xC2u && i + 1 < text.size() &&
-                      static_cast<unsigned char>(text[i + 1]) >= 0x80u &&
-                      static_cast<unsigned char>(text[i + 1]) <= 0x9Fu;
-    const bool control = (byte < 0x20u && byte != '\n') || byte == 0x7Fu || wide;
-    safe += control ? '?' : text[i];
-    if (wide) ++i;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text, i);
+    const std::string_view character = text.substr(i, std::max<std::size_t>(length, 1));
+    if (length == 0 || is_obeyed(character)) {
+      safe += '?';
+    } else {
+      safe += character;
+    }
+    i += character.size();
   }
   return safe;
 }
 
 bool is_one_line_name(std::string_view name) {
   constexpr std::size_t kLongest = 200;
-  constexpr std::string_view kLineSeparator = "\u2028";
-  constexpr std::string_view kParagraphSeparator = "\u2029";
   return !name.empty() && name.size() <= kLongest && printable(name) == name &&
-         name.find('\n') == std::string_view::npos &&
-         name.find(kLineSeparator) == std::string_view::npos &&
-         name.find(kParagraphSeparator) == std::string_view::npos;
+         name.find('\n') == std::string_view::npos;
 }
 
 }  // namespace seedframe

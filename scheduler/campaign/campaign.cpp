@@ -16,19 +16,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kConfigFileKey = "config_file";  // absolute: the job store is not the dataset
-constexpr const char* kOverridesKey = "overrides";
 constexpr const char* kAllowedKey = "allowed_folders";  // a JSON list
 
 /// What the campaign was made from.
 Status describe_campaign(const PreparedCampaign& prepared, JobStore& store) {
-  Json overrides = Json::array();
-  for (const Override& change : prepared.source.overrides) {
-    overrides.push_back({{"path", change.path}, {"value", change.value}});
-  }
   std::error_code error;
   const std::string file = fs::absolute(prepared.source.file, error).string();
   if (Status set = store.set_meta(kConfigFileKey, file); !set) return set;
-  if (Status set = store.set_meta(kOverridesKey, canonical_json(overrides)); !set) return set;
+  if (Status set = store.set_meta(kOverridesKey, overrides_text(prepared.source)); !set) {
+    return set;
+  }
   Json allowed = Json::array();
   for (const fs::path& path : prepared.source.allowed.folders()) allowed.push_back(path.string());
   if (Status set = store.set_meta(kAllowedKey, canonical_json(allowed)); !set) return set;
@@ -40,20 +37,6 @@ Status describe_campaign(const PreparedCampaign& prepared, JobStore& store) {
   if (choices == nullptr) return {};
   if (Status set = store.set_meta(kQualityKey, quality_text(prepared.settings)); !set) return set;
   return store.set_meta(kChoicesKey, canonical_json(to_json(*choices)));
-}
-
-Status add_every_frame(const PreparedCampaign& prepared, JobStore& store) {
-  std::int64_t next = 0;
-  return store.add_frames([&]() -> Result<std::optional<FrameRow>> {
-    if (next == prepared.expander.frame_count()) return std::nullopt;
-    Result<ExpandedFrame> expanded = prepared.expander.expand(next);
-    if (!expanded) return forward_error(expanded);
-    FrameRow row;
-    row.frame = next++;
-    row.scene = expanded->scene;
-    row.frame_id = std::move(expanded->id);
-    return row;
-  });
 }
 
 Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
@@ -68,7 +51,7 @@ Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
   // Together, since each transaction waits for the disk several times.
   return store->write_together(JobStore::Sync::kNow, [&]() -> Status {
     if (Status described = describe_campaign(prepared, *store); !described) return described;
-    return add_every_frame(prepared, *store);
+    return add_frames_from(0, prepared, *store);
   });
 }
 
@@ -172,6 +155,28 @@ Result<Campaign> create_scratch_campaign(const fs::path& folder,
   Campaign campaign{files, std::move(*store)};
   if (Status begun = begin_run(campaign); !begun) return forward_error(begun);
   return campaign;
+}
+
+std::string overrides_text(const CampaignSource& source) {
+  Json overrides = Json::array();
+  for (const Override& change : source.overrides) {
+    overrides.push_back({{"path", change.path}, {"value", change.value}});
+  }
+  return canonical_json(overrides);
+}
+
+Status add_frames_from(std::int64_t first, const PreparedCampaign& prepared, JobStore& store) {
+  std::int64_t next = first;
+  return store.add_frames([&]() -> Result<std::optional<FrameRow>> {
+    if (next == prepared.expander.frame_count()) return std::nullopt;
+    Result<ExpandedFrame> expanded = prepared.expander.expand(next);
+    if (!expanded) return forward_error(expanded);
+    FrameRow row;
+    row.frame = next++;
+    row.scene = expanded->scene;
+    row.frame_id = std::move(expanded->id);
+    return row;
+  });
 }
 
 std::string quality_text(const CampaignSettings& settings) {

@@ -46,6 +46,13 @@ Result<Campaign> create_scratch_campaign(const std::filesystem::path& folder,
 /// Key in the store's meta: InputStamps of the frames' identities, as JSON (input_files.h).
 inline constexpr const char* kInputsKey = "inputs";
 
+/// Key in the store's meta: what was given with --set, as JSON.
+inline constexpr const char* kOverridesKey = "overrides";
+std::string overrides_text(const CampaignSource& source);
+
+/// Expands the frames from `first` to the last on their way into the store.
+Status add_frames_from(std::int64_t first, const PreparedCampaign& prepared, JobStore& store);
+
 /// Key in the store's meta: what frames are rendered with, where the config wants that chosen
 /// (RenderChoices as JSON).
 inline constexpr const char* kChoicesKey = "choices";

@@ -56,24 +56,32 @@ Result<InputStamps> stamps_of_submission(const Campaign& campaign) {
   return stamps;
 }
 
-/// New frame ids by frame, of those that are not what was submitted. `used` takes the files of all.
+/// New frame ids by frame, of those that are not what was submitted. `renewed` takes what there is
+/// to tell of them, and the files of all.
 Result<std::map<std::int64_t, std::string>> changed_frames(const Campaign& campaign,
                                                            const PreparedCampaign& prepared,
-                                                           UsedFiles& used) {
+                                                           RenewedFrames& renewed) {
   const Result<FrameCounts> counts = campaign.store.counts();
   if (!counts) return forward_error(counts);
-  if (counts->total() != prepared.expander.frame_count()) {
-    return fail(ErrorKind::kInput,
-                "{}: the campaign was submitted with {} frames, its config asks for {} now: submit "
-                "it again, into another folder",
-                campaign.files.root().string(), counts->total(), prepared.expander.frame_count());
+  const std::int64_t wanted = prepared.expander.frame_count();
+  const bool chosen = prepared.settings.quality.has_value();
+  if (wanted < counts->total() || (wanted > counts->total() && chosen)) {
+    return fail(
+        ErrorKind::kInput,
+        "{}: the campaign has {} frames, its config asks for {} now{}: submit it again, into "
+        "another folder",
+        campaign.files.root().string(), counts->total(), wanted,
+        chosen ? ", and 'quality' chose for all of them together" : "");
   }
+  renewed.added = wanted - counts->total();
   std::map<std::int64_t, std::string> changed;
   const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
     Result<ExpandedFrame> expanded = prepared.expander.expand(row.frame);
     if (!expanded) return forward_error(expanded);
-    used.add(expanded->used);
-    if (expanded->id != row.frame_id) changed[row.frame] = std::move(expanded->id);
+    renewed.used.add(expanded->used);
+    if (expanded->id == row.frame_id) return {};
+    changed[row.frame] = std::move(expanded->id);
+    if (row.state == FrameState::kDone) ++renewed.finished;
     return {};
   });
   if (!visited) return forward_error(visited);
@@ -133,18 +141,37 @@ Result<std::vector<std::string>> inputs_changed_since(const Campaign& campaign,
   return changed_inputs(*before, input_stamps(prepared));
 }
 
-Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign& prepared) {
+Result<std::vector<std::string>> inputs_touched(const Campaign& campaign) {
+  const Result<InputStamps> before = stamps_of_submission(campaign);
+  if (!before) return forward_error(before);
+  std::vector<std::string> touched;
+  for (const auto& [path, stamp] : *before) {
+    if (!path.starts_with('/') || is_ourselves(path)) continue;
+    InputStamps now;
+    add_file(path, now);
+    if (now[path] != stamp) touched.push_back(path);
+  }
+  return touched;
+}
+
+Result<RenewedFrames> renew_changed_frames(
+    Campaign& campaign, PreparedCampaign& prepared,
+    const std::function<bool(const RenewedFrames&)>& may_replace) {
   const Result<InputStamps> before = stamps_of_submission(campaign);
   if (!before) return forward_error(before);
   const InputStamps now = input_stamps(prepared);
   RenewedFrames renewed;
   if (!now.empty() && now == *before) return renewed;
-  const auto changed = changed_frames(campaign, prepared, renewed.used);
+  const auto changed = changed_frames(campaign, prepared, renewed);
   if (!changed) return forward_error(changed);
   const auto encoded = frames_to_encode_anew(campaign, prepared.settings);
   if (!encoded) return forward_error(encoded);
   renewed.frames = static_cast<std::int64_t>(changed->size());
-  for (const std::int64_t frame : *encoded) renewed.frames += changed->contains(frame) ? 0 : 1;
+  for (const std::int64_t frame : *encoded) {
+    if (changed->contains(frame)) continue;
+    ++renewed.frames;
+    ++renewed.finished;
+  }
   renewed.inputs = changed_inputs(*before, now);
   if (!changed->empty() &&
       std::all_of(renewed.inputs.begin(), renewed.inputs.end(), is_ourselves)) {
@@ -154,6 +181,13 @@ Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign&
                 "that made them, or submit the campaign again, into another folder",
                 campaign.files.root().string(), changed->size(), changed->begin()->first);
   }
+  if (renewed.finished > 0 && !may_replace(renewed)) {
+    return fail(
+        ErrorKind::kInput,
+        "{} finished frames would be replaced: 'seedframe resume {} --yes' does that. Nothing "
+        "was changed",
+        renewed.finished, campaign.files.root().string());
+  }
   const Status written = campaign.store.write_together(JobStore::Sync::kNow, [&]() -> Status {
     for (const auto& [frame, id] : *changed) {
       if (Status done = campaign.store.renew(frame, id); !done) return done;
@@ -161,6 +195,10 @@ Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign&
     for (const std::int64_t frame : *encoded) {
       if (Status done = campaign.store.reset(frame); !done) return done;
     }
+    const std::int64_t first = prepared.expander.frame_count() - renewed.added;
+    if (Status done = add_frames_from(first, prepared, campaign.store); !done) return done;
+    const std::string overrides = overrides_text(prepared.source);
+    if (Status done = campaign.store.set_meta(kOverridesKey, overrides); !done) return done;
     const std::string encoding = canonical_json(to_json(prepared.settings.image_encoding));
     if (Status done = campaign.store.set_meta(kEncodingKey, encoding); !done) return done;
     const std::string quality = quality_text(prepared.settings);

@@ -1,6 +1,7 @@
 // Which files a campaign's frames depend on, and whether they have changed since it was submitted.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,16 +25,27 @@ Result<std::vector<std::string>> inputs_changed_since(const Campaign& campaign,
                                                       const PreparedCampaign& prepared);
 
 struct RenewedFrames {
-  std::int64_t frames = 0;
+  std::int64_t frames = 0;          ///< that would come out as other ones
+  std::int64_t finished = 0;        ///< of them
+  std::int64_t added = 0;           ///< that the config asks for beyond those that there are
   std::vector<std::string> inputs;  ///< that have changed
   UsedFiles used;                   ///< by every frame, if they were expanded
 };
 
 /// Gives frames that would come out as other ones, since an input has changed, their new identity:
 /// they are to be rendered again; so are those whose picture the config wants in another file now.
-/// Looks at the stamps first, and expands every frame only when they
-/// differ. kInput errors: another number of frames; frames that would change though no input has,
-/// so that the program itself must have.
-Result<RenewedFrames> renew_changed_frames(Campaign& campaign, PreparedCampaign& prepared);
+/// Frames that the config asks for beyond those that there are become part of the campaign, and
+/// what was set with --set is remembered. Looks at the stamps first, and expands every frame only
+/// when they differ. `may_replace` is asked before anything is written if finished frames would go.
+/// kInput errors: it may not; fewer frames; more of them where `quality` chose what they are
+/// rendered with; frames that would change though no input has, so that the program itself must
+/// have.
+Result<RenewedFrames> renew_changed_frames(
+    Campaign& campaign, PreparedCampaign& prepared,
+    const std::function<bool(const RenewedFrames&)>& may_replace);
+
+/// Of the files that frames depend on, those that are not as they were, this program left aside.
+/// Does not see files that are new.
+Result<std::vector<std::string>> inputs_touched(const Campaign& campaign);
 
 }  // namespace seedframe

@@ -12,11 +12,13 @@
 #include "base/files.h"
 #include "base/message_text.h"
 #include "cli/allow_option.h"
+#include "cli/argument_checks.h"
 #include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/progress.h"
 #include "cli/run_options.h"
+#include "cli/say.h"
 #include "cli/tolerance_options.h"
 #include "cli/verb.h"
 #include "export/campaign_dataset.h"
@@ -86,7 +88,9 @@ int audit(AuditArguments& arguments) {
   if (Status taken = take_audit_folder(options.folder); !taken) return report(taken.error());
   Auditor auditor(*campaign, *prepared, *setup, options);
   if (Status looked = auditor.look(); !looked) return report(looked.error());
-  const auto dataset = campaign_dataset(*campaign, *prepared);
+  Result<KeptInputs> inputs = inputs_of(*prepared);
+  if (!inputs) return report(inputs.error());
+  const auto dataset = campaign_dataset(*campaign, std::move(*inputs));
   if (!dataset) return report(dataset.error());
   const std::vector<AuditedExport> exports =
       check_exports(dataset->dataset, export_formats(), campaign->files.exports(), core_count());
@@ -101,7 +105,7 @@ int audit(AuditArguments& arguments) {
   if (arguments.json) {
     fmt::print("{}", readable_json(to_json(result, exports)));
   } else {
-    fmt::print("{}{} has the report\n", audit_summary(result, exports), options.folder.string());
+    say("{}{} has the report\n", audit_summary(result, exports), options.folder.string());
   }
   return exit_code_of(result, exports);
 }
@@ -124,13 +128,13 @@ void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("DIR", arguments->folder, "folder of the campaign")->required();
   verb->add_option("--frames", options.sample.frames,
                    "how many frames to render again; 0: only read files")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NotNegative())
       ->capture_default_str();
   verb->add_option("--share", options.sample.share, "or which share of the frames, 0 to 1")
       ->check(CLI::Range(0.0, 1.0));
   verb->add_option("--frame", options.sample.only, "render just this frame again")
       ->allow_extra_args(false)
-      ->check(CLI::NonNegativeNumber);
+      ->check(NotNegative());
   verb->add_option("--sample-seed", options.sample.seed, "another one draws other frames")
       ->capture_default_str();
   verb->add_option("--vary", arguments->vary,
@@ -139,7 +143,7 @@ void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
       ->check(offers(condition_words()));
   verb->add_option("--causes", options.most_causes,
                    "most frames whose cause is looked for by more renderings")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NotNegative())
       ->capture_default_str();
   verb->add_option("-o,--output", arguments->output,
                    "folder for the report (default: audit/ in the campaign's)")

@@ -11,6 +11,7 @@
 #include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
+#include "cli/say.h"
 #include "cli/verb.h"
 #include "study/study_run.h"
 
@@ -44,7 +45,7 @@ int bench_determinism(const DeterminismArguments& arguments) {
   result->height = height;
   if (Status written = write_study(*result, folder); !written) return report(written.error());
   std::filesystem::remove_all(scratch, ignored);
-  fmt::print("{} has study.md, study.svg and study.json\n", folder.string());
+  say("{} has study.md, study.svg and study.json\n", folder.string());
   return kExitOk;
 }
 

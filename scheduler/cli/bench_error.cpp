@@ -12,6 +12,7 @@
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/run_options.h"
+#include "cli/say.h"
 #include "quality/error_report.h"
 
 namespace seedframe {
@@ -64,7 +65,7 @@ Result<SceneStudy> study_scene(const ErrorArguments& arguments, const std::strin
   Result<SceneStudy> study = study_errors(
       *prepared, *setup, scratch, wishes, [&](const std::string& variation, std::int64_t) {
         if (!arguments.run.quiet && variation != last) {
-          std::fprintf(stderr, "%s: %s\n", prepared->settings.name.c_str(), variation.c_str());
+          say_aside("{}: {}\n", prepared->settings.name, variation);
         }
         last = variation;
       });
@@ -85,7 +86,7 @@ int bench_error(const ErrorArguments& arguments) {
   if (Status written = write_error_report(result, arguments.output); !written) {
     return report(written.error());
   }
-  fmt::print("{} has error.md, error.csv, error.json and charts\n", arguments.output);
+  say("{} has error.md, error.csv, error.json and charts\n", arguments.output);
   return kExitOk;
 }
 

@@ -9,10 +9,14 @@
 
 #include "campaign/input_images.h"
 #include "campaign/provenance.h"
+#include "campaign/run_setup.h"
 #include "cli/allow_option.h"
+#include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
+#include "cli/say.h"
 #include "cli/verb.h"
+#include "report/scene_survey.h"
 #include "scene/expansion_summary.h"
 #include "scene/prepared_campaign.h"
 
@@ -24,6 +28,7 @@ struct CheckArguments {
   std::vector<std::string> set;
   std::vector<std::string> allowed;
   std::string graphs;
+  std::string blender;
   bool json = false;
 };
 
@@ -51,6 +56,18 @@ Json constraints_json(const std::vector<std::string>& names,
   return constraints;
 }
 
+/// Of the Blender that would render. Without one, which is no mistake of the config, nothing is
+/// said.
+Status check_colors(const CampaignSettings& settings, const std::string& blender) {
+  const bool asked = !settings.image_place.file.empty();
+  if (!asked || settings.labels != LabelSource::kIndexPass) return {};
+  const std::unique_ptr<FrameCache> cache = FrameCache::open(cache_folder());
+  const Result<Renderer> renderer = find_renderer(blender, settings.ocio_config, cache.get());
+  if (!renderer && renderer.error().kind == ErrorKind::kEnvironment) return {};
+  if (!renderer) return forward_error(renderer);
+  return check_view(settings, *renderer->color);
+}
+
 int check(const CheckArguments& arguments) {
   Result<CampaignSource> source =
       read_source(arguments.config, arguments.set, seedframe_home(), arguments.allowed);
@@ -60,9 +77,14 @@ int check(const CheckArguments& arguments) {
   if (Status good = check_input_images(*prepared, cache_folder()); !good) {
     return report(good.error());
   }
+  if (Status good = check_colors(prepared->settings, arguments.blender); !good) {
+    return report(good.error());
+  }
   const Result<ExpansionSummary> summary = check_frames(prepared->expander, arguments.graphs);
   if (!summary) return report(summary.error());
   const CampaignSettings& settings = prepared->settings;
+  const Result<SceneSurvey> survey = survey_scenes(prepared->expander, settings.categories);
+  if (!survey) return report(survey.error());
   if (arguments.json) {
     fmt::print(
         "{}", readable_json({{"name", settings.name},
@@ -75,16 +97,22 @@ int check(const CheckArguments& arguments) {
                              {"attempts", summary->attempts},
                              {"constraints", constraints_json(prepared->expander.constraint_names(),
                                                               summary->constraints)},
-                             {"assets", asset_hashes(summary->used)}}));
+                             {"assets", asset_hashes(summary->used)},
+                             {"looked_at", survey->frames},
+                             {"warnings", survey->warnings}}));
     return kExitOk;
   }
-  fmt::print(
-      "{} is good: {} scenes × {} frames, {} to {} instances a frame, {} categories, {} assets, {} "
+  say("{} is good: {} scenes × {} frames, {} to {} instances a frame, {} categories, {} assets, {} "
       "images\n'seedframe submit {}' renders it\n",
       arguments.config, settings.scenes, settings.frames_per_scene, summary->least_instances,
       summary->most_instances, settings.categories.size(), summary->used.assets.size(),
       summary->used.images.size(), arguments.config);
-  fmt::print("{}", describe_constraints(prepared->expander, summary->constraints));
+  say("{}", describe_constraints(prepared->expander, summary->constraints));
+  say("looked at {} of {} frames, {} × {} pixels: {}\n", survey->frames.size(), summary->frames,
+      survey->width, survey->height, survey->warnings.empty() ? "nothing to warn of" : "");
+  for (const std::string& warning : survey->warnings) {
+    say("  warning: {}\n", printable(warning));
+  }
   return kExitOk;
 }
 
@@ -93,11 +121,13 @@ int check(const CheckArguments& arguments) {
 void add_check_verb(CLI::App& app, const OnSelected& on_selected) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* verb = app.add_subcommand(
-      "check", "validate a config and expand all its frames, without rendering or writing");
+      "check",
+      "validate a config, expand all its frames, and look at some: renders and writes nothing");
   verb->add_option("CONFIG", arguments->config, "campaign config (docs/config.md)")->required();
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
       ->allow_extra_args(false);
   add_allow_option(*verb, arguments->allowed);
+  add_blender_option(*verb, arguments->blender);
   verb->add_option(
           "--graphs", arguments->graphs,
           "write each frame's variables to this file, as JSON lines (docs/formats/graphs.md)")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/say.h"
 #include "cli/temporary_folder.h"
 #include "quality/calibration.h"
 
@@ -45,7 +46,7 @@ Status choose_settings(PreparedCampaign& prepared, const RunSetup& setup) {
                      : "");
   }
   for (const std::string& note : calibration->notes) {
-    std::fprintf(stderr, "seedframe: note: %s\n", note.c_str());
+    say_aside("seedframe: note: {}\n", note);
   }
   if (calibration->beyond_reach > 0) {
     std::fprintf(

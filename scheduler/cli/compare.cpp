@@ -7,7 +7,9 @@
 
 #include "audit/campaign_comparison.h"
 #include "base/message_text.h"
+#include "cli/argument_checks.h"
 #include "cli/exit_code.h"
+#include "cli/say.h"
 #include "cli/tolerance_options.h"
 #include "cli/verb.h"
 
@@ -26,22 +28,21 @@ struct CompareArguments {
 };
 
 void print_frame(const ComparedFrame& frame) {
-  fmt::print("frame {}: {}", frame.frame, to_string(frame.kind));
+  say("frame {}: {}", frame.frame, to_string(frame.kind));
   if (frame.difference) {
     const std::string text = describe(*frame.difference);
-    fmt::print(" ({})\n", to_string(frame.difference->grade));
-    if (!text.empty()) fmt::print("  {}\n", text);
+    say(" ({})\n", to_string(frame.difference->grade));
+    if (!text.empty()) say("  {}\n", text);
   } else {
-    fmt::print("\n");
+    say("\n");
   }
-  for (const std::string& line : frame.spec) fmt::print("  {}\n", printable(line));
-  if (!frame.provenance.empty()) fmt::print("  made with {}\n", printable(frame.provenance));
+  for (const std::string& line : frame.spec) say("  {}\n", printable(line));
+  if (!frame.provenance.empty()) say("  made with {}\n", printable(frame.provenance));
 }
 
 void print_comparison(const CampaignComparison& comparison) {
   if (comparison.frames.empty() && !comparison.first_hash.empty()) {
-    fmt::print("{} frames are identical: dataset hash {}\n", comparison.identical,
-               comparison.first_hash);
+    say("{} frames are identical: dataset hash {}\n", comparison.identical, comparison.first_hash);
     return;
   }
   constexpr std::size_t kMostShown = 20;
@@ -49,16 +50,16 @@ void print_comparison(const CampaignComparison& comparison) {
     print_frame(comparison.frames[i]);
   }
   if (comparison.frames.size() > kMostShown) {
-    fmt::print("and {} frames more: --json lists them\n", comparison.frames.size() - kMostShown);
+    say("and {} frames more: --json lists them\n", comparison.frames.size() - kMostShown);
   }
-  fmt::print("{} frames are identical", comparison.identical);
+  say("{} frames are identical", comparison.identical);
   for (const Kind kind :
        {Kind::kOtherPixels, Kind::kOtherSpec, Kind::kOnlyInFirst, Kind::kOnlyInSecond}) {
     if (const auto count = comparison.count(kind); count > 0) {
-      fmt::print(", {} {}", count, to_string(kind));
+      say(", {} {}", count, to_string(kind));
     }
   }
-  fmt::print("\n");
+  say("\n");
 }
 
 /// A frame that one of them lacks, or that was not looked at, is not reproducible so far.
@@ -96,7 +97,7 @@ void add_compare_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("B", arguments->second, "folder of another one")->required()->type_name("DIR");
   verb->add_option("--frames", arguments->most_frames,
                    "most differing frames whose pixels are looked at")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NotNegative())
       ->capture_default_str();
   verb->add_option("--images", arguments->heat_maps,
                    "write a picture of each difference into this folder")

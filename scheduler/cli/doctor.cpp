@@ -16,6 +16,7 @@
 #include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
+#include "cli/say.h"
 #include "cli/verb.h"
 #include "image/color_management.h"
 #include "render/blender_description.h"
@@ -42,7 +43,7 @@ class Findings {
 
  private:
   void add(bool good, const std::string& what, const std::string& text) {
-    if (print_) fmt::print("{:<5} {:<12} {}\n", good ? "ok" : "FAIL", what, text);
+    if (print_) say("{:<5} {:<12} {}\n", good ? "ok" : "FAIL", what, text);
     json_.push_back({{"what", what}, {"good", good}, {"found", text}});
     any_bad_ = any_bad_ || !good;
   }

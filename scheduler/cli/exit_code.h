@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 
+#include "base/canonical_json.h"
 #include "base/error.h"
 #include "base/message_text.h"
 
@@ -25,7 +26,7 @@ enum ExitCode : int {
   kExitInterrupted = 130     ///< stopped by a signal; 'resume' goes on
 };
 
-inline int exit_code(ErrorKind kind) {
+inline ExitCode exit_code(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::kInput:
       return kExitInput;
@@ -40,16 +41,26 @@ inline int exit_code(ErrorKind kind) {
   return kExitInternal;
 }
 
-/// Prints an error, a line "seedframe: error: …" for each line of it, and returns its exit code.
-inline int report(const Error& error) {
+/// Set where the arguments ask for JSON: then standard output says what went wrong, too.
+inline bool errors_as_json = false;
+
+/// Prints a line "seedframe: error: …" for each line of a message, and returns the code.
+inline int report(const std::string& message, ExitCode code) {
+  Json messages = Json::array();
   std::size_t start = 0;
-  while (start <= error.message.size()) {
-    const std::size_t end = std::min(error.message.find('\n', start), error.message.size());
-    const std::string line = printable(error.message.substr(start, end - start));
-    std::fprintf(stderr, "seedframe: error: %s\n", line.c_str());
+  while (start <= message.size()) {
+    const std::size_t end = std::min(message.find('\n', start), message.size());
+    messages.push_back(printable(message.substr(start, end - start)));
+    std::fprintf(stderr, "seedframe: error: %s\n", messages.back().get<std::string>().c_str());
     start = end + 1;
   }
-  return exit_code(error.kind);
+  if (errors_as_json) {
+    const Json told = {{"error", {{"exit_code", static_cast<int>(code)}, {"messages", messages}}}};
+    std::printf("%s\n", told.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
+  }
+  return code;
 }
+
+inline int report(const Error& error) { return report(error.message, exit_code(error.kind)); }
 
 }  // namespace seedframe

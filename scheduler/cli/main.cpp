@@ -1,10 +1,12 @@
 // The command line: finds the verb, and says what was meant when there is no such verb or option.
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <functional>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -52,9 +54,9 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   for (const CLI::App* level = &verb; level != nullptr; level = level->get_parent()) {
     name.insert(0, level->get_name() + (name.empty() ? "" : " "));
   }
-  std::fprintf(stderr, "seedframe: error: %s\nseedframe: '%s --help' lists what there is\n",
-               message.c_str(), name.c_str());
-  return seedframe::kExitInput;
+  const int code = seedframe::report(message, seedframe::kExitInput);
+  std::fprintf(stderr, "seedframe: '%s --help' lists what there is\n", name.c_str());
+  return code;
 }
 
 int run(int argc, char** argv) {
@@ -94,9 +96,9 @@ int run(int argc, char** argv) {
   if (!first.empty() && !first.starts_with("-")) {
     const std::vector<std::string> verbs = verb_names(app);
     if (std::find(verbs.begin(), verbs.end(), first) == verbs.end()) {
-      std::fprintf(stderr, "seedframe: error: there is no verb '%s'%s\n", first.c_str(),
-                   did_you_mean(first, verbs).c_str());
-      return seedframe::kExitInput;
+      return seedframe::report(
+          fmt::format("there is no verb '{}'{}", first, did_you_mean(first, verbs)),
+          seedframe::kExitInput);
     }
   }
   try {
@@ -116,11 +118,13 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  seedframe::errors_as_json = std::any_of(argv, argv + argc, [](const char* argument) {
+    return std::string_view(argument) == "--json";
+  });
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
-    std::fputs("seedframe: error: there is not enough memory for this\n", stderr);
-    return seedframe::kExitEnvironment;
+    return seedframe::report("there is not enough memory for this", seedframe::kExitEnvironment);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "seedframe: internal error: %s\n", error.what());
     return seedframe::kExitInternal;

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/exit_code.h"
+#include "cli/say.h"
 #include "cli/verb.h"
 #include "manual/describe_command.h"
 
@@ -50,7 +51,7 @@ int print_manual(CLI::App& app, const std::string& kind) {
                            : kind == "zsh"  ? zsh_completion(program)
                            : kind == "fish" ? fish_completion(program)
                                             : man_page(program, notes());
-  fmt::print("{}", text);
+  say("{}", text);
   return kExitOk;
 }
 

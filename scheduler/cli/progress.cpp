@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "cli/say.h"
+
 namespace seedframe {
 namespace {
 
@@ -101,13 +103,13 @@ void Progress::attempt_failed(const FrameJob& job, const AttemptFailure& failure
 
 void Progress::noted(const std::string& text) {
   if (line_open_) std::fputs("\r\033[K", stderr);
-  std::fprintf(stderr, "seedframe: note: %s\n", text.c_str());
+  say_aside("seedframe: note: {}\n", text);
   show(terminal_);
 }
 
 void Progress::paused(const Error& why, double limit_s) {
   finish();
-  std::fprintf(stderr, "seedframe: paused: %s\n", why.message.c_str());
+  say_aside("seedframe: paused: {}\n", why.message);
   std::fprintf(stderr, "seedframe: waiting up to %s for it to pass; Ctrl-C ends\n",
                duration_text(limit_s).c_str());
 }

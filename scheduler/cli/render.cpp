@@ -9,10 +9,12 @@
 #include "base/files.h"
 #include "campaign/campaign.h"
 #include "cli/allow_option.h"
+#include "cli/argument_checks.h"
 #include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/run_options.h"
+#include "cli/say.h"
 #include "cli/temporary_folder.h"
 #include "cli/verb.h"
 #include "frames/rendered_frame.h"
@@ -133,9 +135,8 @@ int render(const RenderArguments& arguments) {
     return report(done.error());
   }
   if (!frame.failure) return report(frame.failure.error());
-  fmt::print("{} is frame {} at {} samples: {:.1f} s, {:.1f} CPU s\n", file.string(),
-             arguments.frame, frame.samples, frame.timings.build_s + frame.timings.render_s,
-             frame.timings.cpu_s);
+  say("{} is frame {} at {} samples: {:.1f} s, {:.1f} CPU s\n", file.string(), arguments.frame,
+      frame.samples, frame.timings.build_s + frame.timings.render_s, frame.timings.cpu_s);
   return kExitOk;
 }
 
@@ -149,7 +150,7 @@ void add_render_verb(CLI::App& app, const OnSelected& on_selected) {
       ->required();
   verb->add_option("--frame", arguments->frame, "its index, from 0")
       ->required()
-      ->check(CLI::NonNegativeNumber);
+      ->check(NotNegative());
   verb->add_option("--samples", arguments->samples, "of a pixel (default: the campaign's)")
       ->check(CLI::Range(1, 1 << 20));
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")

@@ -4,14 +4,17 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include "campaign/input_files.h"
 #include "campaign/input_images.h"
 #include "cli/allow_option.h"
+#include "cli/argument_checks.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/run_campaign.h"
 #include "cli/run_options.h"
+#include "cli/say.h"
 #include "cli/verb.h"
 #include "quality/raise.h"
 
@@ -22,23 +25,38 @@ struct ResumeArguments {
   std::string folder;
   std::vector<std::int64_t> frames;
   std::vector<std::string> allowed;
+  std::vector<std::string> set;
   bool verify = false;
   bool raise = false;
+  bool yes = false;
   RunOptions run;
 };
 
+void print_added(const RenewedFrames& renewed) {
+  if (renewed.added == 0) return;
+  std::fprintf(stderr, "%lld frames are new\n", static_cast<long long>(renewed.added));
+}
+
 void print_renewed(const RenewedFrames& renewed) {
   if (renewed.frames == 0) return;
-  std::fprintf(
-      stderr, "%lld frames have become different and are made again, because these have changed:\n",
-      static_cast<long long>(renewed.frames));
+  say_aside("{} frames have become different ({} of them finished), because these have changed:\n",
+            renewed.frames, renewed.finished);
   constexpr std::size_t kMostShown = 10;
   for (std::size_t i = 0; i < std::min(kMostShown, renewed.inputs.size()); ++i) {
-    std::fprintf(stderr, "  %s\n", renewed.inputs[i].c_str());
+    say_aside("  {}\n", renewed.inputs[i]);
   }
   if (renewed.inputs.size() > kMostShown) {
     std::fprintf(stderr, "  and %zu more\n", renewed.inputs.size() - kMostShown);
   }
+}
+
+/// Finished frames are somebody's work: a terminal is asked, anything else has to say --yes.
+bool may_replace(const RenewedFrames& renewed, bool yes) {
+  print_renewed(renewed);
+  if (yes || ::isatty(STDIN_FILENO) == 0) return yes;
+  std::fprintf(stderr, "Replace them? [y/N] ");
+  const int answer = std::getchar();
+  return answer == 'y' || answer == 'Y';
 }
 
 /// With --frame: just these, even if they are done.
@@ -98,7 +116,10 @@ int resume(ResumeArguments arguments) {
   if (!campaign) return report(campaign.error());
   const Result<CampaignLock> lock = CampaignLock::acquire(campaign->files.lock());
   if (!lock) return report(lock.error());
-  Result<PreparedCampaign> prepared = prepare_again(*campaign, seedframe_home(), arguments.allowed);
+  const Result<std::vector<Override>> set = read_overrides(arguments.set);
+  if (!set) return report(set.error());
+  Result<PreparedCampaign> prepared =
+      prepare_again(*campaign, seedframe_home(), arguments.allowed, *set);
   if (!prepared) return report(prepared.error());
   if (arguments.verify) {
     if (Status whole = campaign->store.check_integrity(); !whole) return report(whole.error());
@@ -107,9 +128,12 @@ int resume(ResumeArguments arguments) {
   if (Status good = check_changed_images(*campaign, *prepared, cache_folder()); !good) {
     return report(good.error());
   }
-  const Result<RenewedFrames> renewed = renew_changed_frames(*campaign, *prepared);
+  const Result<RenewedFrames> renewed = renew_changed_frames(
+      *campaign, *prepared,
+      [&](const RenewedFrames& changes) { return may_replace(changes, arguments.yes); });
   if (!renewed) return report(renewed.error());
-  print_renewed(*renewed);
+  if (renewed->finished == 0) print_renewed(*renewed);
+  print_added(*renewed);
   std::vector<std::int64_t> raised;
   if (arguments.raise) {
     Result<std::vector<std::int64_t>> frames = raise_measured(*campaign, *prepared);
@@ -119,7 +143,7 @@ int resume(ResumeArguments arguments) {
   Result<Reconciliation> state = reconcile(*campaign, arguments.verify);
   if (!state) return report(state.error());
   for (const std::string& why : state->invalid) {
-    std::fprintf(stderr, "to be rendered again: %s\n", why.c_str());
+    say_aside("to be rendered again: {}\n", why);
   }
   if (state->adopted > 0) {
     std::fprintf(stderr, "%lld frames were complete on disk already\n",
@@ -137,8 +161,8 @@ int resume(ResumeArguments arguments) {
   const int code =
       run_campaign(*campaign, *prepared, renewed->used, *setup, std::move(state->to_render));
   if (!raised.empty()) {
-    fmt::print("whether it was enough: 'seedframe verify-error {} --frame {}'\n", arguments.folder,
-               fmt::join(raised, " --frame "));
+    say("whether it was enough: 'seedframe verify-error {} --frame {}'\n", arguments.folder,
+        fmt::join(raised, " --frame "));
   }
   return code;
 }
@@ -155,12 +179,17 @@ void add_resume_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::Option* frame =
       verb->add_option("--frame", arguments->frames, "render just this frame, even if it is done")
           ->allow_extra_args(false)
-          ->check(CLI::NonNegativeNumber);
+          ->check(NotNegative());
   verb->add_flag(
           "--raise", arguments->raise,
           "give frames more samples that 'verify-error' found beyond the promised error, and "
           "render them again")
       ->excludes(frame);
+  verb->add_option("--set", arguments->set,
+                   "path=value: replaces a value of the config from now on; scenes=200 adds frames")
+      ->allow_extra_args(false);
+  verb->add_flag("--yes", arguments->yes,
+                 "replace finished frames that would come out differently, without asking");
   add_allow_option(*verb, arguments->allowed);
   verb->add_flag(
       "--verify", arguments->verify,

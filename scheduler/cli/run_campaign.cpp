@@ -10,6 +10,8 @@
 #include "campaign/run_setup.h"
 #include "cli/exit_code.h"
 #include "cli/progress.h"
+#include "cli/say.h"
+#include "export/kept_inputs.h"
 
 namespace seedframe {
 namespace {
@@ -30,33 +32,29 @@ int print_outcome(const Campaign& campaign, std::int64_t done_before, const RunS
   const std::string folder = campaign.files.root().string();
   const Result<FrameCounts> counts = campaign.store.counts();
   if (!counts) return report(counts.error());
-  fmt::print("{} of {} frames are done ({} in this run{}, {})\n", counts->done, counts->total(),
-             std::max<std::int64_t>(0, counts->done - done_before),
-             summary.from_cache > 0
-                 ? fmt::format(", {} of them found on this machine", summary.from_cache)
-                 : "",
-             duration_text(seconds));
+  say("{} of {} frames are done ({} in this run{}, {})\n", counts->done, counts->total(),
+      std::max<std::int64_t>(0, counts->done - done_before),
+      summary.from_cache > 0 ? fmt::format(", {} of them found on this machine", summary.from_cache)
+                             : "",
+      duration_text(seconds));
   if (counts->quarantined > 0) {
-    fmt::print(
-        "{} frames are quarantined, each has cost too many workers: 'seedframe status {}' "
+    say("{} frames are quarantined, each has cost too many workers: 'seedframe status {}' "
         "names them and how to see it again\n",
         counts->quarantined, folder);
   }
   if (counts->failed > 0) {
-    fmt::print(
-        "{} frames failed: 'seedframe status {}' names them, 'seedframe resume {}' tries "
+    say("{} frames failed: 'seedframe status {}' names them, 'seedframe resume {}' tries "
         "them again\n",
         counts->failed, folder, folder);
   }
   if (counts->failed + counts->quarantined > 0) return kExitSomeFailed;
   if (counts->done < counts->total()) {
-    fmt::print("'seedframe resume {}' renders the rest\n", folder);
+    say("'seedframe resume {}' renders the rest\n", folder);
     return interrupted ? kExitInterrupted : kExitOk;
   }
   const Result<std::string> hash = campaign.store.dataset_hash();
   if (!hash) return report(hash.error());
-  fmt::print("dataset hash {}\n'seedframe export {} --format coco' writes annotations\n", *hash,
-             folder);
+  say("dataset hash {}\n'seedframe export {} --format coco' writes annotations\n", *hash, folder);
   return kExitOk;
 }
 
@@ -64,6 +62,9 @@ int print_outcome(const Campaign& campaign, std::int64_t done_before, const RunS
 
 int run_campaign(Campaign& campaign, const PreparedCampaign& prepared, const UsedFiles& used,
                  RunSetup& setup, std::vector<PendingFrame> frames) {
+  const Result<KeptInputs> inputs = inputs_of(prepared);
+  if (!inputs) return report(inputs.error());
+  if (Status kept = keep_inputs(campaign.files, *inputs); !kept) return report(kept.error());
   const Result<FrameCounts> before = campaign.store.counts();
   if (!before) return report(before.error());
   const bool silent = setup.options.quiet || frames.empty();

@@ -5,8 +5,10 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/run_setup.h"
+#include "cli/argument_checks.h"
 #include "cli/blender_option.h"
 #include "cli/home.h"
+#include "cli/say.h"
 
 namespace seedframe {
 namespace {
@@ -46,7 +48,7 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
               "seconds without a sign of life after which a worker counts as hung");
   verb.add_option("--frames-per-worker", pool.frames_per_worker,
                   "frames after which a worker is replaced; 0: never")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NotNegative())
       ->capture_default_str();
   const auto set_memory = [&pool](double gigabytes) {
     pool.worker_memory_bytes = static_cast<std::int64_t>(gigabytes * 1e9);
@@ -63,7 +65,7 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
                 "render frames that have been rendered on this machine, too");
   verb.add_option("--pause-limit", options.pause_limit_s,
                   "seconds to wait for room when the disk is full; 0: end at once")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NotNegative())
       ->capture_default_str();
   verb.add_flag("--no-space-check", options.no_space_check,
                 "start though the frames will probably not fit on the disk");
@@ -78,7 +80,7 @@ Result<RunSetup> set_up_run(const RunOptions& options, const CampaignSettings& s
 
 void print_notes(const RunSetup& setup) {
   for (const std::string& note : setup.notes) {
-    std::fprintf(stderr, "seedframe: note: %s\n", note.c_str());
+    say_aside("seedframe: note: {}\n", note);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/progress.h"
+#include "cli/say.h"
 #include "cli/verb.h"
 #include "report/campaign_status.h"
 
@@ -28,45 +29,50 @@ void print_timings(const AttemptTimings& timings, const FrameCounts& counts) {
   const bool rendered = timings.render_s > 0.0;  // else there is no worker, only the twin
   const double frame_s = rendered ? timings.build_s + timings.render_s : timings.finish_s;
   if (rendered) {
-    fmt::print(
-        "a frame takes a worker {:.3f} s ({:.3f} s of it to build the scene) and {:.3f} s "
+    say("a frame takes a worker {:.3f} s ({:.3f} s of it to build the scene) and {:.3f} s "
         "beside it\n",
         frame_s, timings.build_s, timings.finish_s);
   } else {
-    fmt::print("a frame takes a thread {:.3f} s\n", frame_s);
+    say("a frame takes a thread {:.3f} s\n", frame_s);
   }
   const auto left = static_cast<double>(counts.pending + counts.running);
   if (left > 0) {
-    fmt::print("left for one {}: {}\n", rendered ? "worker" : "thread",
-               duration_text(left * frame_s));
+    say("left for one {}: {}\n", rendered ? "worker" : "thread", duration_text(left * frame_s));
   }
 }
 
 void print_status(const CampaignStatus& status, const std::string& folder) {
   const FrameCounts& counts = status.counts;
-  fmt::print("{} frames: {} done, {} running, {} pending, {} failed, {} quarantined{}\n",
-             counts.total(), counts.done, counts.running, counts.pending, counts.failed,
-             counts.quarantined, status.running ? " (a scheduler is at work)" : "");
+  say("{} frames: {} done, {} running, {} pending, {} failed, {} quarantined{}\n", counts.total(),
+      counts.done, counts.running, counts.pending, counts.failed, counts.quarantined,
+      status.running ? " (a scheduler is at work)" : "");
   if (status.timings) print_timings(*status.timings, counts);
-  if (status.twin.frames > 0) fmt::print("{}", twin_text(status.twin));
+  if (status.twin.frames > 0) say("{}", twin_text(status.twin));
   if (status.promise) {
-    for (const std::string& line : lines_of(*status.promise, folder)) fmt::print("{}\n", line);
+    for (const std::string& line : lines_of(*status.promise, folder)) say("{}\n", line);
+  }
+  if (!status.inputs_touched.empty()) {
+    const std::size_t more = status.inputs_touched.size() - 1;
+    say("{}{} changed or gone since its frames were made; 'seedframe resume {}' says what would be "
+        "made again\n",
+        printable(status.inputs_touched.front()),
+        more == 0 ? " has" : fmt::format(" and {} more inputs have", more), folder);
   }
   for (const std::string& difference : mixed_provenances(status)) {
-    fmt::print("some attempts were made with {}: their pixels are not comparable\n", difference);
+    say("some attempts were made with {}: their pixels are not comparable\n", difference);
   }
   for (const AttemptRow& row : status.failures) {
-    fmt::print("frame {}, attempt {} ({}): {}\n", row.frame, row.attempt, to_string(row.outcome),
-               row.message);
+    say("frame {}, attempt {} ({}): {}\n", row.frame, row.attempt, to_string(row.outcome),
+        row.message);
   }
   for (const FrameRow& row : status.quarantined) {
-    fmt::print("frame {} is quarantined after {} crashes; see it again: {}\n", row.frame,
-               row.crashes, command_to_reproduce(folder, row.frame));
+    say("frame {} is quarantined after {} crashes; see it again: {}\n", row.frame, row.crashes,
+        command_to_reproduce(folder, row.frame));
   }
   if (!status.dataset_hash.empty()) {
-    fmt::print("dataset hash {}\n", status.dataset_hash);
+    say("dataset hash {}\n", status.dataset_hash);
   } else if (!status.running) {
-    fmt::print("'seedframe resume {}' renders the rest\n", folder);
+    say("'seedframe resume {}' renders the rest\n", folder);
   }
 }
 

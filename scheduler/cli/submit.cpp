@@ -17,6 +17,7 @@
 #include "cli/progress.h"
 #include "cli/run_campaign.h"
 #include "cli/run_options.h"
+#include "cli/say.h"
 #include "cli/temporary_folder.h"
 #include "cli/verb.h"
 #include "plan/frame_bytes.h"
@@ -48,27 +49,26 @@ void print_plan(const PreparedCampaign& prepared, const ExpansionSummary& summar
                 const RunSetup& setup, std::int64_t frames, const std::filesystem::path& folder) {
   const CampaignSettings& settings = prepared.settings;
   const bool rendered = settings.labels == LabelSource::kIndexPass;
-  fmt::print("{} scenes × {} frames: {} of {} frames would be {}, {} × {}{}\n", settings.scenes,
-             settings.frames_per_scene, frames, settings.frame_count(),
-             rendered ? "rendered" : "labelled", settings.render.width, settings.render.height,
-             rendered ? fmt::format(" at {} samples", settings.render.samples) : std::string());
-  fmt::print("seed {}, {} categories, {} meshes, {} images\n", settings.seed,
-             settings.categories.size(), summary.meshes.size(), summary.used.images.size());
-  fmt::print("{}", describe_constraints(prepared.expander, summary.constraints));
+  say("{} scenes × {} frames: {} of {} frames would be {}, {} × {}{}\n", settings.scenes,
+      settings.frames_per_scene, frames, settings.frame_count(), rendered ? "rendered" : "labelled",
+      settings.render.width, settings.render.height,
+      rendered ? fmt::format(" at {} samples", settings.render.samples) : std::string());
+  say("seed {}, {} categories, {} meshes, {} images\n", settings.seed, settings.categories.size(),
+      summary.meshes.size(), summary.used.images.size());
+  say("{}", describe_constraints(prepared.expander, summary.constraints));
   if (rendered && summary.rendered_px < summary.image_px) {
-    fmt::print("left out: {:.1f} % of the pixels (render.region)\n",
-               100.0 - 100.0 * static_cast<double>(summary.rendered_px) /
-                           static_cast<double>(summary.image_px));
+    say("left out: {:.1f} % of the pixels (render.region)\n",
+        100.0 - 100.0 * static_cast<double>(summary.rendered_px) /
+                    static_cast<double>(summary.image_px));
   }
   if (settings.quality) {
-    fmt::print(
-        "what each frame needs for {} of {} would be found out first, by {} small renderings "
+    say("what each frame needs for {} of {} would be found out first, by {} small renderings "
         "or a few more\n",
         kQualityMetricNames[static_cast<std::size_t>(settings.quality->metric)],
         settings.quality->max_error, 2 * settings.frame_count());
   }
-  fmt::print("by {}\n", describe(setup));
-  fmt::print("into {} (nothing was written)\n", folder.string());
+  say("by {}\n", describe(setup));
+  say("into {} (nothing was written)\n", folder.string());
 }
 
 /// What it would take, told by frames that are made beside.
@@ -92,16 +92,15 @@ Result<Forecast> make_pilots(const PreparedCampaign& prepared, const RunSetup& s
 int tell_costs(const SubmitArguments& arguments, const PreparedCampaign& prepared,
                const RunSetup& setup, std::int64_t frames, double prepared_s) {
   if (arguments.pilots == 0) {
-    fmt::print(
-        "about {}; --pilot 8 would make 8 frames to tell how long they take\n",
+    say("about {}; --pilot 8 would make 8 frames to tell how long they take\n",
         bytes_text(typical_frame_bytes(prepared.settings) * static_cast<std::uint64_t>(frames)));
     return kExitOk;
   }
   const Result<Forecast> told = make_pilots(prepared, setup, frames, arguments.pilots);
   if (!told) return report(told.error());
-  fmt::print("about {} and {}, by {} frames that were made to tell ({:.3f} s each, ± {:.0f} %)\n",
-             duration_text(prepared_s + told->wall_s), bytes_text(told->bytes), told->pilots,
-             told->frame_s, 100.0 * told->spread);
+  say("about {} and {}, by {} frames that were made to tell ({:.3f} s each, ± {:.0f} %)\n",
+      duration_text(prepared_s + told->wall_s), bytes_text(told->bytes), told->pilots,
+      told->frame_s, 100.0 * told->spread);
   return kExitOk;
 }
 

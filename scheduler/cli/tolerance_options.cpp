@@ -4,18 +4,20 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/argument_checks.h"
+
 namespace seedframe {
 
 void add_tolerance_options(CLI::App& verb, Tolerance& tolerance) {
   verb.add_option("--ulp", tolerance.ulp,
                   "colours that differ by no more units in the last place count as rounding")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NotNegative())
       ->capture_default_str();
   verb.add_option("--max", tolerance.max, "most that a scene-linear value may differ by")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NotNegative())
       ->capture_default_str();
   verb.add_option("--rms", tolerance.rms, "most that a picture may, root mean square")
-      ->check(CLI::NonNegativeNumber)
+      ->check(NotNegative())
       ->capture_default_str();
   verb.add_option("--psnr", tolerance.psnr_db, "least peak signal-to-noise ratio, in dB")
       ->capture_default_str();

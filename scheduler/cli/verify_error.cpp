@@ -9,9 +9,11 @@
 
 #include "campaign/campaign.h"
 #include "cli/allow_option.h"
+#include "cli/argument_checks.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/run_options.h"
+#include "cli/say.h"
 #include "cli/temporary_folder.h"
 #include "cli/verb.h"
 #include "manual/describe_command.h"
@@ -72,31 +74,29 @@ Json to_json(const ErrorCheck& check, const ErrorPromise& promise, const Promise
 }
 
 void print_check(const ErrorCheck& check, const ErrorPromise& promise) {
-  fmt::print("{} frames against references of {} samples ({:.1f} CPU s each)\n",
-             check.frames.size(), check.reference_samples, check.reference_cpu_s);
-  fmt::print("{:>8}  {:>8}  {:>9}  {:>8}  {:>12}\n", "frame", "rmse8", "relmse", "flip",
-             "bias, codes");
+  say("{} frames against references of {} samples ({:.1f} CPU s each)\n", check.frames.size(),
+      check.reference_samples, check.reference_cpu_s);
+  say("{:>8}  {:>8}  {:>9}  {:>8}  {:>12}\n", "frame", "rmse8", "relmse", "flip", "bias, codes");
   for (const CheckedFrame& frame : check.frames) {
-    fmt::print("{:>8}  {:>8.2f}  {:>9.2g}  {:>8.4f}  {:>+12.2f}\n", frame.frame,
-               frame.error.display.rmse(), frame.error.linear.squared.rel_mse,
-               frame.error.display.flip, frame.error.display.bias);
+    say("{:>8}  {:>8.2f}  {:>9.2g}  {:>8.4f}  {:>+12.2f}\n", frame.frame,
+        frame.error.display.rmse(), frame.error.linear.squared.rel_mse, frame.error.display.flip,
+        frame.error.display.bias);
   }
   constexpr double kMost = 0.95;
   const std::vector<FrameError> errors = check.errors_in(*promise.measure);
-  fmt::print("{}: half of them within {:.3g}, 95 % within {:.3g}, all within {:.3g}\n",
-             promise.measure->key, quantile_of_error(errors, 0.5), quantile_of_error(errors, kMost),
-             quantile_of_error(errors, 1.0));
+  say("{}: half of them within {:.3g}, 95 % within {:.3g}, all within {:.3g}\n",
+      promise.measure->key, quantile_of_error(errors, 0.5), quantile_of_error(errors, kMost),
+      quantile_of_error(errors, 1.0));
 }
 
 void print_promise(const PromiseCheck& outcome, const ErrorPromise& promise) {
-  fmt::print(
-      "{:.1f} % of the frames are within {} of {} (between {:.1f} and {:.1f} % with 95 % "
+  say("{:.1f} % of the frames are within {} of {} (between {:.1f} and {:.1f} % with 95 % "
       "confidence); {:.1f} % were promised: {}\n",
       100.0 * outcome.within.value, promise.measure->key, promise.max_error,
       100.0 * outcome.within.least, 100.0 * outcome.within.most, 100.0 * promise.share,
       outcome.is_kept ? "kept" : "BROKEN");
   if (outcome.beyond.empty()) return;
-  fmt::print("beyond it: {}\n", fmt::join(outcome.beyond, ", "));
+  say("beyond it: {}\n", fmt::join(outcome.beyond, ", "));
 }
 
 /// What the command line says, or else the config.
@@ -176,7 +176,7 @@ void add_verify_error_verb(CLI::App& app, const OnSelected& on_selected) {
       ->capture_default_str();
   verb->add_option("--frame", arguments->only, "just this frame; may be given again")
       ->allow_extra_args(false)
-      ->check(CLI::NonNegativeNumber);
+      ->check(NotNegative());
   verb->add_option("--sample-seed", arguments->sample_seed, "another one draws other frames")
       ->capture_default_str();
   verb->add_option("--samples", arguments->reference_samples, "of a reference")

@@ -36,21 +36,17 @@ class DoneFrames {
 
 }  // namespace
 
-Result<CampaignDataset> campaign_dataset(const Campaign& campaign,
-                                         const PreparedCampaign& prepared) {
-  const CampaignSettings& settings = prepared.settings;
+Result<CampaignDataset> campaign_dataset(const Campaign& campaign, KeptInputs inputs) {
   CampaignDataset out;
   Dataset& dataset = out.dataset;
-  dataset.name = settings.name;
-  dataset.seed = settings.seed;
-  dataset.categories = settings.categories;
-  auto assets = prepared.expander.offered_assets();
-  if (!assets) return forward_error(assets);
-  dataset.assets = std::move(*assets);
+  dataset.name = std::move(inputs.name);
+  dataset.seed = inputs.seed;
+  dataset.categories = std::move(inputs.categories);
+  dataset.assets = std::move(inputs.assets);
   dataset.keypoints = class_keypoints(dataset.assets, dataset.categories);
-  dataset.has_images = settings.labels == LabelSource::kIndexPass;
-  dataset.image_format = settings.image_encoding.format;
-  dataset.has_depth = settings.render.depth;
+  dataset.has_images = inputs.has_images;
+  dataset.image_format = inputs.image_format;
+  dataset.has_depth = inputs.has_depth;
   dataset.frames = [&campaign] {
     return [frames = std::make_shared<DoneFrames>(campaign)] { return frames->next(); };
   };

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "campaign/campaign.h"
 #include "export/dataset.h"
+#include "export/kept_inputs.h"
 
 namespace seedframe {
 
@@ -15,7 +16,6 @@ struct CampaignDataset {
 };
 
 /// Looks at the store only. Frames that are not done are left out. The campaign must outlive it.
-Result<CampaignDataset> campaign_dataset(const Campaign& campaign,
-                                         const PreparedCampaign& prepared);
+Result<CampaignDataset> campaign_dataset(const Campaign& campaign, KeptInputs inputs);
 
 }  // namespace seedframe

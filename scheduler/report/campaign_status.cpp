@@ -1,6 +1,7 @@
 #include "report/campaign_status.h"
 
 #include "campaign/campaign_lock.h"
+#include "campaign/input_files.h"
 #include "campaign/provenance.h"
 
 namespace seedframe {
@@ -38,6 +39,9 @@ Result<CampaignStatus> read_status(const Campaign& campaign) {
   auto promise = read_promise_status(campaign);
   if (!promise) return forward_error(promise);
   status.promise = std::move(*promise);
+  auto touched = inputs_touched(campaign);
+  if (!touched) return forward_error(touched);
+  status.inputs_touched = std::move(*touched);
   const auto lock = CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0));
   status.running = !lock && lock.error().kind == ErrorKind::kInput;  // held, not out of reach
   return status;
@@ -64,6 +68,7 @@ Json to_json(const CampaignStatus& status) {
   for (const std::string& text : status.provenances) {
     json["provenances"].push_back(Json::parse(text, nullptr, /*allow_exceptions=*/false));
   }
+  json["inputs_touched"] = status.inputs_touched;
   json["quality"] = status.promise ? to_json(*status.promise) : Json();
   const TwinSummary& twin = status.twin;
   json["twin"] = {{"frames", twin.frames},

@@ -18,10 +18,11 @@ struct CampaignStatus {
   std::vector<AttemptRow> failures;       ///< the newest first
   std::vector<FrameRow> quarantined;      ///< some of them
   TwinSummary twin;
-  std::string dataset_hash;              ///< empty until the campaign is complete
-  std::vector<std::string> provenances;  ///< of attempts, as JSON
-  std::optional<PromiseStatus> promise;  ///< of how wrong frames are
-  bool running = false;                  ///< a scheduler is at work
+  std::string dataset_hash;                 ///< empty until the campaign is complete
+  std::vector<std::string> provenances;     ///< of attempts, as JSON
+  std::optional<PromiseStatus> promise;     ///< of how wrong frames are
+  bool running = false;                     ///< a scheduler is at work
+  std::vector<std::string> inputs_touched;  ///< files that are not as they were for its frames
 };
 
 Result<CampaignStatus> read_status(const Campaign& campaign);

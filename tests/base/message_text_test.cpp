@@ -16,6 +16,9 @@ TEST(MessageText, HoldsNothingThatATerminalObeys) {
   EXPECT_EQ(printable("a\x1b[2J\tb\r\x7f\nc"), "a?[2J?b??\nc");
   EXPECT_EQ(printable("\u009b2J über 日本"), "?2J über 日本");
   EXPECT_EQ(printable(std::string(1, '\0')), "?");
+  EXPECT_EQ(printable("a\u202egpj.exe\u2066 \u200f\u061c\u2028b"), "a?gpj.exe? ???b");
+  EXPECT_EQ(printable("\xff\xc3 caf\u00e9"), "?? café");
+  EXPECT_EQ(printable("שלום – “é”"), "שלום – “é”");
 }
 
 TEST(MessageText, ANameIsOneLine) {

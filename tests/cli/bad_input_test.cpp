@@ -88,6 +88,12 @@ TEST_F(BadInputTest, EmptyAndDamagedMeshes) {
 }
 
 TEST_F(BadInputTest, Views) {
+  write("view.yaml",
+        with_object("{asset: gear}") + "image:\n  view: AgX\n  ocio_config: " + kOcioConfig + "\n");
+  const Outcome checked = run({"check", "view.yaml", "--blender", kFakeBlender});
+  EXPECT_EQ(checked.exit_code, 2);
+  EXPECT_THAT(checked.errors, HasSubstr("view.yaml:7:3: image: "));
+  EXPECT_THAT(checked.errors, HasSubstr("AgX"));
   expect_refused(
       with_object("{asset: gear}") + "image: {view: Filmc, ocio_config: " + kOcioConfig + "}\n",
       "did you mean 'Filmic'?");
@@ -135,6 +141,10 @@ TEST_F(BadInputTest, CommandLines) {
               HasSubstr("there is no verb 'sumbit' (did you mean 'submit'?)"));
   EXPECT_THAT(run({"submit", "x.yaml", "--wrokers", "2"}).errors,
               HasSubstr("did you mean '--workers'?"));
+  EXPECT_THAT(run({"export", "c", "--format", "yolo"}).errors,
+              HasSubstr("did you mean 'yolo-detect', 'yolo-segment', 'yolo-obb' or 'yolo-pose'?"));
+  EXPECT_THAT(run({"explain", "c", "-1"}).errors,
+              HasSubstr("FRAME: expected a number of 0 or more, found '-1'\n"));
   EXPECT_EQ(run({"submit"}).exit_code, 2);
   EXPECT_EQ(run({"status", "nowhere"}).exit_code, 2);
   EXPECT_THAT(run({"status", "nowhere"}).errors, HasSubstr("there is no campaign here"));
@@ -161,6 +171,58 @@ TEST_F(BadInputTest, OverridesAreCheckedLikeTheConfig) {
   expect_refused(with_object("{asset: gear}"), "--set render.samples=0: render.samples",
                  {"--set", "render.samples=0"});
   expect_refused(with_object("{asset: gear}"), "did you mean 'render'?", {"--set", "rendr.x=0"});
+}
+
+TEST_F(BadInputTest, WhatOverridesTakeAway) {
+  write("scene.yaml", with_object("{asset: gear, count: crowd}") +
+                          "scenes: 3\nvariables: {scene: {crowd: {integer: [1, 2]}}}\n"
+                          "sweep: {axes: {a: {b: [1, 2]}}}\nworld: {colour: 1}\n");
+  write("graphs.jsonl", "{\"crowd\": 1}\n{\"crowd\": 2}\n");
+  const auto check = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"check", "scene.yaml", "--set", "sweep=null"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  EXPECT_THAT(check({}).errors, HasSubstr("world.colour: unknown key"));
+  EXPECT_THAT(check({"--set", "world=null"}).output, HasSubstr("3 scenes"));
+  EXPECT_THAT(check({"--set", "world.colour=null"}).output, HasSubstr("3 scenes"));
+  EXPECT_THAT(check({"--set", "world=null", "--set", "scenes=null"}).output, HasSubstr("1 scenes"));
+  EXPECT_THAT(check({"--set", "world=null", "--set", "graphs=graphs.jsonl"}).output,
+              HasSubstr("2 scenes"));
+  EXPECT_THAT(
+      check({"--set", "world=null", "--set", "graphs=graphs.jsonl", "--set", "scenes=3"}).errors,
+      HasSubstr("scenes and graphs exclude each other"));
+}
+
+TEST_F(BadInputTest, MistakesComeInTheOrderOfTheirLines) {
+  write("scene.yaml",
+        "seedframe: 1\nrender:\n  sampels: 3\n  width: many\n  hieght: 2\nlights: {a: {powr: 1}}\n"
+        "camera: {distance: 1}\n");
+  const std::string errors = run({"check", "scene.yaml"}).errors;
+  std::size_t after = 0;
+  for (const char* place : {"yaml:3:", "yaml:4:", "yaml:5:", "yaml:6:", "yaml:7:"}) {
+    const std::size_t found = errors.find(place, after);
+    ASSERT_NE(found, std::string::npos) << place << "\n" << errors;
+    after = found;
+  }
+}
+
+TEST_F(BadInputTest, WithJsonErrorsAreJson) {
+  write("scene.yaml", with_object("{asset: gear, hidden: 3}") + "lights: {a: {powr: 1}}\n");
+  const Outcome outcome = run({"check", "scene.yaml", "--json"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  const Json error = Json::parse(outcome.output).at("error");
+  EXPECT_EQ(error.at("exit_code"), 2);
+  EXPECT_EQ(error.at("messages").size(), 3u);
+  EXPECT_EQ(error.at("messages").at(0),
+            "scene.yaml:5:28: objects.o.hidden: unknown key (did you mean 'hidden_from'?)");
+  for (const auto& message : error.at("messages")) {
+    EXPECT_THAT(outcome.errors, HasSubstr("seedframe: error: " + message.get<std::string>()));
+  }
+  EXPECT_EQ(Json::parse(run({"status", "nowhere", "--json"}).output).at("error").at("exit_code"),
+            2);
+  EXPECT_EQ(Json::parse(run({"status", "--jsn", "--json"}).output).at("error").at("exit_code"), 2);
+  EXPECT_EQ(run({"check", "scene.yaml"}).output, "");
 }
 
 }  // namespace

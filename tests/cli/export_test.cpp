@@ -174,11 +174,11 @@ TEST_F(ExportTest, AddedScenesAddToTheExport) {
   EXPECT_EQ(contents("out"), contents("fresh"));
 }
 
-TEST_F(ExportTest, AClassThatTheConfigLostIsNamed) {
-  std::string config = *read_file(folder_ / "c/campaign.yaml");
-  const std::string classes = "gear, hex_bolt, never_seen, washer";
-  config.replace(config.find(classes), classes.size(), "gear, hex_bolt, washer");
-  write("c/campaign.yaml", config);
+TEST_F(ExportTest, AClassThatTheCampaignLostIsNamed) {
+  Json inputs = *parse_json(*read_file(folder_ / "c/inputs/inputs.json"), "inputs.json");
+  auto& classes = inputs.at("categories");
+  classes.erase(std::find(classes.begin(), classes.end(), "never_seen"));
+  write("c/inputs/inputs.json", readable_json(inputs));
   const Outcome outcome = run({"export", "c", "-o", "out", "--format", "voc"});
   EXPECT_EQ(outcome.exit_code, 5);
   EXPECT_THAT(outcome.errors, HasSubstr("class 'never_seen'"));

@@ -321,7 +321,13 @@ TEST_F(FaultsTest, AChangedConfigIsAnotherDatasetAndMadeAnew) {
   submit("{}", {"--frames", "3"});
   std::string text = *read_file(folder_ / "c/campaign.yaml");
   write("c/campaign.yaml", text.replace(text.find("0.5]"), 4, "0.6]"));
-  const Outcome outcome = resume();
+  const Outcome asked = resume();
+  EXPECT_EQ(asked.exit_code, 2);
+  EXPECT_THAT(asked.errors,
+              HasSubstr("3 finished frames would be replaced: 'seedframe resume c --yes'"));
+  EXPECT_THAT(asked.errors, HasSubstr("  campaign.yaml\n"));
+  EXPECT_EQ(status("c").at("done"), 3) << "nothing was changed";
+  const Outcome outcome = resume({"--yes"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_THAT(outcome.errors, HasSubstr("12 frames have become different"));
   EXPECT_THAT(outcome.errors, HasSubstr("  campaign.yaml\n"));
@@ -330,13 +336,19 @@ TEST_F(FaultsTest, AChangedConfigIsAnotherDatasetAndMadeAnew) {
   EXPECT_EQ(status("c").at("dataset_hash"), undisturbed_hash());
 }
 
-TEST_F(FaultsTest, AConfigOfMoreFramesIsNotResumed) {
+TEST_F(FaultsTest, MoreScenesAreMoreFramesOfTheSameCampaign) {
   ASSERT_EQ(submit("{}").exit_code, 0);
-  std::string text = *read_file(folder_ / "c/campaign.yaml");
-  write("c/campaign.yaml", text.replace(text.find("scenes: 4"), 9, "scenes: 5"));
-  const Outcome outcome = resume();
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.errors, HasSubstr("submitted with 12 frames, its config asks for 15 now"));
+  const Outcome fewer = resume({"--set", "scenes=3"});
+  EXPECT_EQ(fewer.exit_code, 2);
+  EXPECT_THAT(fewer.errors, HasSubstr("the campaign has 12 frames, its config asks for 9 now"));
+  const Outcome outcome = resume({"--set", "scenes=5"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("3 frames are new"));
+  EXPECT_THAT(outcome.output, HasSubstr("15 of 15 frames are done (3 in this run"));
+  EXPECT_THAT(resume().output, HasSubstr("(0 in this run")) << "what was set is remembered";
+  std::string text = *read_file(folder_ / "faults.yaml");
+  write("faults.yaml", text.replace(text.find("scenes: 4"), 9, "scenes: 5"));
+  EXPECT_EQ(status("c").at("dataset_hash"), undisturbed_hash());
 }
 
 TEST_F(FaultsTest, AChangedAssetCostsExactlyTheFramesThatShowIt) {
@@ -356,8 +368,10 @@ TEST_F(FaultsTest, AChangedAssetCostsExactlyTheFramesThatShowIt) {
   ASSERT_LT(with_gear, kFrames);
   const std::string before = status("c").at("dataset_hash");
 
+  EXPECT_THAT(run({"status", "c"}).output, Not(HasSubstr("changed or gone")));
   ASSERT_EQ(run({"asset", "keypoints", "gear", "hub=0,0,0", "--root", "parts"}).exit_code, 0);
-  const Outcome outcome = resume();
+  EXPECT_THAT(run({"status", "c"}).output, HasSubstr("parts/gear/asset.json has changed or gone"));
+  const Outcome outcome = resume({"--yes"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr(fmt::format("({} in this run", with_gear)));
   EXPECT_THAT(outcome.errors, HasSubstr("parts/gear/asset.json"));

@@ -190,9 +190,9 @@ TEST_F(PicturesTest, AreMadeAnewWhenTheConfigWantsOthers) {
   const std::string hash = dataset_hash("c");
   write_config(", format: jpeg, quality: 50", "c/campaign.yaml");
   // Half of the way: what was not made anew is not taken for what is wanted.
-  const Outcome half = blender({"resume", "c", "--frame", "1"});
+  const Outcome half = blender({"resume", "c", "--frame", "1", "--yes"});
   EXPECT_EQ(half.exit_code, 0) << half.errors;
-  EXPECT_THAT(half.errors, HasSubstr("4 frames have become different and are made again"));
+  EXPECT_THAT(half.errors, HasSubstr("4 frames have become different (4 of them finished)"));
   EXPECT_TRUE(fs::exists(frame("c", 1) / "image.jpg"));
   EXPECT_TRUE(fs::exists(frame("c", 2) / "image.png"));
   const Outcome whole = blender({"resume", "c"});
@@ -205,7 +205,7 @@ TEST_F(PicturesTest, AreMadeAnewWhenTheConfigWantsOthers) {
   EXPECT_EQ(dataset_hash("c"), hash) << "the pixels before they are encoded are the same";
   EXPECT_EQ(frame_id(), id);
   write_config(", format: jpeg, quality: 90", "c/campaign.yaml");
-  EXPECT_THAT(blender({"resume", "c"}).output, HasSubstr("4 in this run"));
+  EXPECT_THAT(blender({"resume", "c", "--yes"}).output, HasSubstr("4 in this run"));
   EXPECT_THAT(blender({"resume", "c"}).output, HasSubstr("0 in this run"));
 }
 

@@ -1,5 +1,7 @@
 #include "report/frame_explanation.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "tests/campaign/campaign_fixture.h"
@@ -23,7 +25,7 @@ TEST_F(FrameExplanationTest, HasDrawsAttemptsAndWhetherTheFrameIsStillTheSame) {
   const auto explanation = explain_frame(campaign(), *prepared_, 4);
   ASSERT_TRUE(explanation) << explanation.error().message;
   EXPECT_FALSE(explanation->manifest);
-  const Json json = to_json(*explanation, "the command");
+  const Json json = to_json(*explanation, {"gear"}, "the command");
   EXPECT_EQ(json.at("frame"), 4);
   EXPECT_EQ(json.at("scene"), 1);
   EXPECT_EQ(json.at("unchanged"), true);
@@ -31,6 +33,26 @@ TEST_F(FrameExplanationTest, HasDrawsAttemptsAndWhetherTheFrameIsStillTheSame) {
   EXPECT_EQ(json.at("attempts").at(0).at("provenance").at("kernel"), "avx2");
   EXPECT_EQ(json.at("render_again"), "the command");
   EXPECT_FALSE(json.contains("pixels"));
+}
+
+TEST_F(FrameExplanationTest, SaysWhereEachObjectIsInTheWorld) {
+  const auto explanation = explain_frame(campaign(), *prepared_, 4);
+  ASSERT_TRUE(explanation) << explanation.error().message;
+  const auto objects = explained_objects(*explanation, {"gear"});
+  const auto& instances = explanation->expanded.spec.instances;
+  ASSERT_FALSE(objects.empty());
+  for (const ExplainedObject& object : objects) {
+    const auto instance = std::find_if(instances.begin(), instances.end(),
+                                       [&](const auto& each) { return each.id == object.id; });
+    ASSERT_NE(instance, instances.end());
+    EXPECT_EQ(object.name, instance->name);
+    EXPECT_EQ(object.asset, "gear");
+    EXPECT_EQ(object.category, "gear");
+    EXPECT_NEAR(object.distance_m,
+                (object.position - explanation->expanded.world_from_camera.translation()).norm(),
+                1e-9);
+    EXPECT_EQ(object.visible_px, std::nullopt) << "nothing is rendered";
+  }
 }
 
 }  // namespace
