@@ -17,11 +17,6 @@ namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
 
-Rounding rounding_of(const Twin& twin) {
-  return {[&](int row, int column, std::uint16_t id) { return twin.grazes(row, column, id); },
-          [&](int row, int column, std::uint16_t id) { return twin.coincides(row, column, id); }};
-}
-
 /// Moves what was rendered out of the attempt's folder, which goes, and puts beside it what it
 /// should have been.
 Status keep_rejected(const FinishTask& task, const Image<std::uint16_t>& rendered, const Twin& twin,

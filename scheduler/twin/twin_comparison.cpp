@@ -104,6 +104,11 @@ constexpr const char* kHint =
 
 }  // namespace
 
+Rounding rounding_of(const Twin& twin) {
+  return {[&](int row, int column, std::uint16_t id) { return twin.grazes(row, column, id); },
+          [&](int row, int column, std::uint16_t id) { return twin.coincides(row, column, id); }};
+}
+
 TwinVerdict compare_with_twin(const FrameSpec& spec, const Ids& rendered, const Ids& twin,
                               const TwinTolerance& tolerance, const Rounding& rounding) {
   assert(rendered.width == twin.width && rendered.height == twin.height);

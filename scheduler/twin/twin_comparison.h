@@ -8,6 +8,7 @@
 #include "image/image.h"
 #include "spec/frame_spec.h"
 #include "spec/twin_check.h"
+#include "twin/twin.h"
 
 namespace seedframe {
 
@@ -23,6 +24,9 @@ struct Rounding {
   Test grazes;     ///< whether the twin sees an id very near the pixel's centre; Twin::grazes
   Test coincides;  ///< whether an id's surface is where the twin's is; Twin::coincides
 };
+
+/// By the twin, which must outlive it.
+Rounding rounding_of(const Twin& twin);
 
 /// Both images are of the spec's size. What `rounding` lacks is nowhere so. Pixels where surfaces
 /// coincide are told with those of edges, and are no complaint.

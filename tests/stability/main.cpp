@@ -49,9 +49,8 @@ void add_rendered(const RenderedFrame& rendered, const FrameSpec& spec, const Ex
     return;
   }
   const FrameImages images = value_of(read_rendered(rendered, spec));
-  const TwinVerdict verdict = compare_with_twin(
-      spec, images.ids, twin.instance_ids, {},
-      [&](int row, int column, std::uint16_t id) { return twin.grazes(row, column, id); });
+  const TwinVerdict verdict =
+      compare_with_twin(spec, images.ids, twin.instance_ids, {}, rounding_of(twin));
   figures.inside_px += verdict.tally.inside_px;
   figures.edge_px += verdict.tally.edge_px;
   if (figures.complaint.empty()) figures.complaint = verdict.complaint;
