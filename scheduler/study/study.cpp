@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fcntl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/canonical_json.h"
@@ -18,6 +19,7 @@ constexpr int kRepetitions = 3;  ///< of conditions whose outcome may be chance
 constexpr int kFrame = 3;        ///< the one that is compared
 constexpr int kMostId = 3;
 constexpr const char* kMadeWith = "made_with.txt";
+constexpr const char* kLog = "blender.log";
 constexpr auto kLongest = std::chrono::minutes(30);
 
 Json setting_json(const StudySetting& setting) {
@@ -58,8 +60,10 @@ Json plan_of(const StudySetting& setting, const Study::Tools& tools) {
           {"renders", renders}};
 }
 
-Status run_blender(const StudySetting& setting, const Study::Tools& tools, const fs::path& plan) {
-  const fs::path log = tools.scratch / "blender.log";
+/// False: it has crashed.
+Result<bool> run_blender(const StudySetting& setting, const Study::Tools& tools,
+                         const fs::path& plan) {
+  const fs::path log = tools.scratch / kLog;
   const int output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (output < 0) return fail(ErrorKind::kEnvironment, "cannot write {}", log.string());
   const auto changes = environment_of({setting.kernels, setting.persistent_data}, tools.preload);
@@ -75,7 +79,8 @@ Status run_blender(const StudySetting& setting, const Study::Tools& tools, const
   if (!child) return forward_error(child);
   const auto status = wait_for_child(*child, kLongest);
   if (!status) kill_child(*child);
-  if (status == 0) return {};
+  if (status == 0) return true;
+  if (status && WIFSIGNALED(*status)) return false;
   return fail(ErrorKind::kEnvironment, "Blender {}: its log is {}", describe_wait_status(status),
               log.string());
 }
@@ -246,7 +251,14 @@ Result<StudyRow> Study::measure(const StudyCondition& condition) {
   return row;
 }
 
-Result<std::string> Study::made_with() const { return read_file(tools_.scratch / kMadeWith); }
+Result<std::string> Study::made_with() const {
+  Result<std::string> made_with = read_file(tools_.scratch / kMadeWith);
+  if (made_with && crashes_ > 0) {
+    *made_with += fmt::format("; Blender crashed {} and was started again",
+                              crashes_ == 1 ? "once" : fmt::format("{} times", crashes_));
+  }
+  return made_with;
+}
 
 Result<const Study::Pictures*> Study::reference(const StudySetting& setting) {
   const std::string key = canonical_json(setting_json(setting));
@@ -265,7 +277,17 @@ Result<Study::Pictures> Study::render(const StudySetting& setting) {
   if (Status written = write_file(plan, plan_of(setting, tools_).dump()); !written) {
     return forward_error(written);
   }
-  if (Status done = run_blender(setting, tools_, plan); !done) return forward_error(done);
+  constexpr int kMostCrashes = 3;  // of one rendering
+  for (int crashes = 0;; ++crashes) {
+    const Result<bool> done = run_blender(setting, tools_, plan);
+    if (!done) return forward_error(done);
+    if (*done) break;
+    ++crashes_;
+    if (crashes + 1 == kMostCrashes) {
+      return fail(ErrorKind::kEnvironment, "Blender crashed {} times: its log is {}", kMostCrashes,
+                  (tools_.scratch / kLog).string());
+    }
+  }
   Pictures pictures;
   pictures.reserve(study_scenes().size());
   for (std::size_t scene = 0; scene < study_scenes().size(); ++scene) {

@@ -81,7 +81,8 @@ class Study {
 
   /// A setting that several conditions need is rendered once. kEnvironment errors: Blender failed.
   Result<StudyRow> measure(const StudyCondition& condition);
-  /// "Blender 3.4.1, Cycles' kernel avx2, Embree's avx512, 2 CPUs", of the last rendering.
+  /// "Blender 3.4.1, Cycles' kernel avx2, Embree's avx512, 2 CPUs", of the last rendering, and how
+  /// often it crashed and was started again.
   Result<std::string> made_with() const;
 
  private:
@@ -95,6 +96,7 @@ class Study {
 
   Tools tools_;
   const ColorManagement& color_;
+  int crashes_ = 0;
   std::map<std::string, Pictures> references_;  ///< by what describes a setting
 };
 
