@@ -59,52 +59,59 @@ std::size_t TracedSurface::feature_degree(Vertex vertex) const {
 
 CollapseRing::CollapseRing(const TracedSurface& traced, TracedSurface::Halfedge halfedge,
                            const CgalKernel::Point_3& point)
-    : point_(vector_of(point)) {
-  collect(traced, halfedge);
-  collect(traced, traced.surface.opposite(halfedge));
-  collect_spokes(traced, halfedge);
-  collect_spokes(traced, traced.surface.opposite(halfedge));
-  if (traced.is_feature(halfedge)) loose_along_ = traced.along[traced.surface.edge(halfedge)];
+    : traced_(traced), halfedge_(halfedge), point_(vector_of(point)) {
+  collect(halfedge);
+  collect(traced.surface.opposite(halfedge));
+  collect_spokes(halfedge);
+  collect_spokes(traced.surface.opposite(halfedge));
 }
 
-// The triangles around the halfedge's target. Of the edge's own two, each end sees both; this end
-// takes the one on the halfedge's left.
-void CollapseRing::collect(const TracedSurface& traced, TracedSurface::Halfedge halfedge) {
-  const CgalSurface& surface = traced.surface;
+// The triangles around the halfedge's target, without the edge's own two, which vanish.
+void CollapseRing::collect(TracedSurface::Halfedge halfedge) {
+  const CgalSurface& surface = traced_.surface;
   const auto left = surface.face(halfedge);
   const auto right = surface.face(surface.opposite(halfedge));
   for (const auto in : CGAL::halfedges_around_target(halfedge, surface)) {
     const auto face = surface.face(in);
-    if (face == CgalSurface::null_face() || face == right) continue;
-    if (face == left) {
-      append(loose_on_, traced.on[face]);
-      continue;
-    }
+    if (face == CgalSurface::null_face() || face == left || face == right) continue;
     Triangle triangle;
+    triangle.face = face;
     triangle.a = surface.target(surface.next(in));
     triangle.b = surface.source(in);
     triangle.at_a = vector_of(surface.point(triangle.a));
     triangle.at_b = vector_of(surface.point(triangle.b));
     triangle.before = vector_of(surface.point(surface.target(in)));
-    triangle.chart = traced.chart[face];
-    triangle.on = traced.on[face];
+    triangle.chart = traced_.chart[face];
     triangles_.push_back(std::move(triangle));
   }
 }
 
-void CollapseRing::collect_spokes(const TracedSurface& traced, TracedSurface::Halfedge halfedge) {
-  const CgalSurface& surface = traced.surface;
+void CollapseRing::collect_spokes(TracedSurface::Halfedge halfedge) {
+  const CgalSurface& surface = traced_.surface;
   for (const auto in : CGAL::halfedges_around_target(halfedge, surface)) {
-    if (in == halfedge || !traced.is_feature(in)) continue;
+    if (in == halfedge || !traced_.is_feature(in)) continue;
     const auto end = surface.source(in);
-    spokes_.push_back({end, vector_of(surface.point(end)), traced.along[surface.edge(in)]});
+    spokes_.push_back({surface.edge(in), end, vector_of(surface.point(end)), {}});
   }
+}
+
+void CollapseRing::collect_samples() {
+  const CgalSurface& surface = traced_.surface;
+  for (Triangle& triangle : triangles_) triangle.on = traced_.on[triangle.face];
+  for (Spoke& spoke : spokes_) spoke.along = traced_.along[spoke.edge];
+  for (const auto side : {halfedge_, surface.opposite(halfedge_)}) {
+    const auto face = surface.face(side);
+    if (face != CgalSurface::null_face()) append(loose_on_, traced_.on[face]);
+  }
+  if (traced_.is_feature(halfedge_)) loose_along_ = traced_.along[surface.edge(halfedge_)];
 }
 
 bool CollapseRing::keeps(const SimplifyOriginal& original, double tolerance_m) {
   const double squared = tolerance_m * tolerance_m;
-  return keeps_direction() && keeps_lines_near(original, squared) &&
-         keeps_original_near(original, squared) && stays_near_original(original, squared);
+  // Most collapses fail by their shape alone; samples are many.
+  if (!keeps_direction() || !stays_near_original(original, squared)) return false;
+  collect_samples();
+  return keeps_lines_near(original, squared) && keeps_original_near(original, squared);
 }
 
 bool CollapseRing::keeps_direction() const {
@@ -137,7 +144,7 @@ bool CollapseRing::keeps_lines_near(const SimplifyOriginal& original, double squ
 bool CollapseRing::stays_near_original(const SimplifyOriginal& original,
                                        double squared_tolerance) const {
   const auto is_near = [&](const Vector& p) {
-    return original.tree.squared_distance({p.x(), p.y(), p.z()}) <= squared_tolerance;
+    return original.surface->any_within(p, squared_tolerance);
   };
   if (!is_near(point_)) return false;
   return std::all_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {

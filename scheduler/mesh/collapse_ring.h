@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesh/cgal_surface.h"
-#include "mesh/triangle_tree.h"
+#include "mesh/triangle_search.h"
 #include "mesh/uv_charts.h"
 
 namespace seedframe {
@@ -19,8 +19,7 @@ struct SimplifyOriginal {
   /// Points of the surface that must stay near: its vertices by their numbers, then the middles of
   /// its edges and of its triangles.
   std::vector<Eigen::Vector3d> samples;
-  CgalTriangles triangles;  ///< those with an area
-  TriangleTree tree;
+  std::unique_ptr<TriangleSearch> surface;  ///< the triangles with an area
   std::unique_ptr<UvSource> uvs;
 };
 
@@ -62,24 +61,29 @@ class CollapseRing {
 
  private:
   struct Triangle {  // of the ring; its third corner moves
+    TracedSurface::Face face;
     TracedSurface::Vertex a, b;
     Eigen::Vector3d at_a, at_b, before;
     std::uint32_t chart = 0;
     TracedSurface::Samples on;
   };
   struct Spoke {  // a feature edge from the ring to the moving vertex
+    TracedSurface::Edge edge;
     TracedSurface::Vertex end;
     Eigen::Vector3d at;
     TracedSurface::Samples along;
   };
 
-  void collect(const TracedSurface& traced, TracedSurface::Halfedge halfedge);
-  void collect_spokes(const TracedSurface& traced, TracedSurface::Halfedge halfedge);
+  void collect(TracedSurface::Halfedge halfedge);
+  void collect_spokes(TracedSurface::Halfedge halfedge);
+  void collect_samples();
   bool keeps_direction() const;
   bool keeps_original_near(const SimplifyOriginal& original, double squared_tolerance);
   bool keeps_lines_near(const SimplifyOriginal& original, double squared_tolerance);
   bool stays_near_original(const SimplifyOriginal& original, double squared_tolerance) const;
 
+  const TracedSurface& traced_;
+  TracedSurface::Halfedge halfedge_;
   Eigen::Vector3d point_;
   std::vector<Triangle> triangles_;
   std::vector<Spoke> spokes_;

@@ -4,94 +4,116 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "mesh/cgal_guard.h"
 #include "mesh/cgal_surface.h"
 #include "mesh/triangle_distance.h"
-#include "mesh/triangle_tree.h"
+#include "mesh/triangle_search.h"
 
 namespace seedframe {
 namespace {
 
 using Vector = Eigen::Vector3d;
-using Corners = std::array<Vector, 3>;
 using Box = Eigen::AlignedBox3d;
 
-Box box_of(const Corners& t) {
+Box box_of(const TriangleCorners& t) {
   Box box(t[0]);
   return box.extend(t[1]).extend(t[2]);
 }
 
-double distance(const Vector& p, const Corners& t) {
+double distance(const Vector& p, const TriangleCorners& t) {
   return std::sqrt(squared_distance_to_triangle(p, t[0], t[1], t[2]));
 }
 
-// The triangles with an area, and a tree of them.
-struct Surface {
-  explicit Surface(const Mesh& mesh) {
-    for (const auto& triangle : mesh.triangles) {
-      std::array<CgalKernel::Point_3, 3> points;
-      Corners at;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto& p = mesh.positions[triangle[i]];
-        points[i] = cgal_point(p);
-        at[i] = Vector(p[0], p[1], p[2]);
+// The triangles with an area.
+std::vector<TriangleCorners> surface_of(const Mesh& mesh) {
+  std::vector<TriangleCorners> triangles;
+  for (const auto& triangle : mesh.triangles) {
+    std::array<CgalKernel::Point_3, 3> points;
+    TriangleCorners corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      points[i] = cgal_point(mesh.positions[triangle[i]]);
+      corners[i] = vector_of(points[i]);
+    }
+    if (!CGAL::collinear(points[0], points[1], points[2])) triangles.push_back(corners);
+  }
+  return triangles;
+}
+
+// A convex polygon in a plane: a triangle of which pieces were cut off.
+class Polygon {
+ public:
+  Polygon() = default;
+  explicit Polygon(const TriangleCorners& triangle) : count_(3) {
+    std::copy(triangle.begin(), triangle.end(), corners_.begin());
+  }
+
+  std::span<const Vector> corners() const { return {corners_.data(), count_}; }
+
+  double area() const {
+    Vector sum = Vector::Zero();
+    for (std::size_t i = 2; i < count_; ++i) {
+      sum += (corners_[i - 1] - corners_[0]).cross(corners_[i] - corners_[0]);
+    }
+    return 0.5 * sum.norm();
+  }
+
+  /// What lies on the side of the plane that `normal` points to, and what lies on the other.
+  std::pair<Polygon, Polygon> cut(const Vector& on_plane, const Vector& normal) const {
+    std::array<double, kMostCorners> height{};
+    for (std::size_t i = 0; i < count_; ++i) height[i] = (corners_[i] - on_plane).dot(normal);
+    Polygon above;
+    Polygon below;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const std::size_t next = (i + 1) % count_;
+      if (height[i] >= 0.0) above.add(corners_[i]);
+      if (height[i] <= 0.0) below.add(corners_[i]);
+      if ((height[i] < 0.0) == (height[next] < 0.0) || height[i] == 0.0 || height[next] == 0.0) {
+        continue;
       }
-      if (CGAL::collinear(points[0], points[1], points[2])) continue;
-      triangles.emplace_back(points[0], points[1], points[2]);
-      corners.push_back(at);
-      boxes.push_back(box_of(at));
+      const double t = height[i] / (height[i] - height[next]);
+      const Vector crossing = corners_[i] + t * (corners_[next] - corners_[i]);
+      above.add(crossing);
+      below.add(crossing);
     }
-    tree.insert(triangles.cbegin(), triangles.cend());
-    tree.build();
-    if (!triangles.empty()) tree.accelerate_distance_queries();
+    return {above, below};
   }
 
-  // A triangle that is among the nearest ones to p.
-  std::uint32_t nearest(const Vector& p) const {
-    const auto found = tree.closest_point_and_primitive({p.x(), p.y(), p.z()});
-    return static_cast<std::uint32_t>(found.second - triangles.cbegin());
+ private:
+  void add(const Vector& corner) {
+    if (count_ < kMostCorners) corners_[count_++] = corner;
   }
 
-  std::vector<std::uint32_t> within(const Box& box, double reach) const {
-    const Vector low = box.min().array() - reach;
-    const Vector high = box.max().array() + reach;
-    std::vector<CgalTriangles::const_iterator> found;
-    tree.all_intersected_primitives(
-        CgalKernel::Iso_cuboid_3({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}),
-        std::back_inserter(found));
-    std::vector<std::uint32_t> numbers;
-    numbers.reserve(found.size());
-    for (const auto& triangle : found) {
-      numbers.push_back(static_cast<std::uint32_t>(triangle - triangles.cbegin()));
-    }
-    return numbers;
-  }
-
-  CgalTriangles triangles;
-  std::vector<Corners> corners;
-  std::vector<Box> boxes;
-  TriangleTree tree;
+  // Each cut adds one corner at most, and none is cut more than three times.
+  static constexpr std::size_t kMostCorners = 8;
+  std::array<Vector, kMostCorners> corners_;
+  std::size_t count_ = 0;
 };
 
 // The greatest distance of a point of one surface from the other one, from below and above.
 class DirectedDistance {
  public:
-  DirectedDistance(const Surface& to, double tolerance, double lower)
+  DirectedDistance(const TriangleSearch& to, double tolerance, double lower)
       : to_(to), tolerance_(tolerance), found_{lower, lower} {}
 
-  SurfaceDistance measure(const Surface& from) {
+  SurfaceDistance measure(const TriangleSearch& from) {
     // Corners first: the greater the distance that is known, the less must be cut.
-    std::vector<double> least(from.corners.size(), 0.0);
+    const std::vector<TriangleCorners>& parts = from.triangles();
+    std::vector<double> least(parts.size(), 0.0);
     for (std::size_t t = 0; t < least.size(); ++t) {
-      const Corners& corners = from.corners[t];
+      const TriangleCorners& corners = parts[t];
       const Vector centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-      const Corners& other = to_.corners[to_.nearest(centre)];
+      const TriangleCorners& other = to_.triangles()[to_.nearest(centre).triangle];
       // Convex: no point of the triangle is farther from `other` than its corners are.
       for (const Vector& corner : corners) least[t] = std::max(least[t], distance(corner, other));
       if (least[t] > found_.lower_m) {
         for (const Vector& corner : corners) {
-          found_.lower_m = std::max(found_.lower_m, exact_distance(corner));
+          found_.lower_m =
+              std::max(found_.lower_m, std::sqrt(to_.nearest(corner).squared_distance));
         }
       }
     }
@@ -100,7 +122,7 @@ class DirectedDistance {
         found_.upper_m = std::max(found_.upper_m, least[t]);
         continue;
       }
-      cut(from.corners[t], to_.within(box_of(from.corners[t]), least[t]), 0);
+      look_at(parts[t], to_.near_box(box_of(parts[t]), least[t]), 0);
     }
     found_.upper_m = std::max(found_.upper_m, found_.lower_m);
     return found_;
@@ -109,23 +131,26 @@ class DirectedDistance {
  private:
   double enough() const { return found_.lower_m + tolerance_; }
 
-  double exact_distance(const Vector& p) const {
-    return std::sqrt(to_.tree.squared_distance({p.x(), p.y(), p.z()}));
-  }
-
   // `near` holds every triangle that is the nearest one to any point of `part`.
-  void cut(const Corners& part, const std::vector<std::uint32_t>& near, int depth) {
+  void look_at(const TriangleCorners& part, const std::vector<std::uint32_t>& near, int depth) {
+    const Vector centre = (part[0] + part[1] + part[2]) / 3.0;
     std::array<double, 3> nearest;
     nearest.fill(std::numeric_limits<double>::infinity());
     double one_triangle = std::numeric_limits<double>::infinity();
+    double to_centre = std::numeric_limits<double>::infinity();
+    std::uint32_t at_centre = 0;
     for (const std::uint32_t t : near) {
+      const TriangleCorners& other = to_.triangles()[t];
       double farthest = 0.0;
       for (std::size_t i = 0; i < 3; ++i) {
-        const double d = distance(part[i], to_.corners[t]);
+        const double d = distance(part[i], other);
         nearest[i] = std::min(nearest[i], d);
         farthest = std::max(farthest, d);
       }
       one_triangle = std::min(one_triangle, farthest);
+      const double d = squared_distance_to_triangle(centre, other[0], other[1], other[2]);
+      if (d < to_centre) at_centre = t;
+      to_centre = std::min(to_centre, d);
     }
     const double at_corners = *std::max_element(nearest.begin(), nearest.end());
     found_.lower_m = std::max(found_.lower_m, at_corners);
@@ -136,44 +161,94 @@ class DirectedDistance {
     // No point is farther than this from its nearest corner, and distances change no faster.
     const double upper = std::min(one_triangle, at_corners + sides[longest] / std::sqrt(3.0));
     constexpr std::size_t kMostSteps = 200'000'000;
-    constexpr int kDeepest = 60;
+    constexpr int kDeepest = 200;
     steps_ += near.size();
     if (upper <= enough() || steps_ > kMostSteps || depth == kDeepest) {
       found_.upper_m = std::max(found_.upper_m, upper);
       return;
     }
+    const auto look_at_piece = [&](const TriangleCorners& piece) {
+      look_at(piece, still_near(piece, near, upper), depth + 1);
+    };
+    if (cut_along(at_centre, part, near, look_at_piece)) return;
     const Vector middle = 0.5 * (part[longest] + part[(longest + 1) % 3]);
     for (const std::size_t replaced : {longest, (longest + 1) % 3}) {
-      Corners half = part;
+      TriangleCorners half = part;
       half[replaced] = middle;
-      cut(half, still_near(half, near, upper), depth + 1);
+      look_at_piece(half);
     }
   }
 
-  std::vector<std::uint32_t> still_near(const Corners& part, const std::vector<std::uint32_t>& near,
+  // Cuts away what lies over one triangle of the other surface, if that is near enough, and looks
+  // at the rest: where the surfaces are flat, halving would follow every edge of the other one down
+  // to the tolerance.
+  template <class LookAt>
+  bool cut_along(std::uint32_t number, const TriangleCorners& part,
+                 const std::vector<std::uint32_t>& near, const LookAt& look_at_piece) {
+    constexpr double kLeastShare = 1e-9;  // rounding must not be taken for progress
+    const TriangleCorners& triangle = to_.triangles()[number];
+    const Vector normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+    Polygon over(part);
+    const double least_area = kLeastShare * over.area();
+    std::array<Polygon, 3> beside;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector inward = normal.cross(triangle[(i + 1) % 3] - triangle[i]).normalized();
+      // A little wider: what lies beside the triangle by less than the tolerance is near it, too.
+      std::tie(over, beside[i]) = over.cut(triangle[i] - 0.25 * tolerance_ * inward, inward);
+    }
+    if (over.corners().size() < 3 || !(over.area() > least_area)) return false;
+    double farthest = 0.0;
+    for (const Vector& corner : over.corners()) {
+      farthest = std::max(farthest, distance(corner, triangle));
+    }
+    if (farthest > enough()) raise_lower(over, near);
+    if (farthest > enough()) return false;
+    found_.upper_m = std::max(found_.upper_m, farthest);
+    for (const Polygon& rest : beside) {
+      const auto corners = rest.corners();
+      for (std::size_t i = 2; i < corners.size(); ++i) {
+        look_at_piece({corners[0], corners[i - 1], corners[i]});
+      }
+    }
+    return true;
+  }
+
+  void raise_lower(const Polygon& polygon, const std::vector<std::uint32_t>& near) {
+    for (const Vector& corner : polygon.corners()) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t t : near) {
+        least = std::min(least, distance(corner, to_.triangles()[t]));
+      }
+      found_.lower_m = std::max(found_.lower_m, least);
+    }
+    steps_ += near.size();
+  }
+
+  std::vector<std::uint32_t> still_near(const TriangleCorners& part,
+                                        const std::vector<std::uint32_t>& near,
                                         double reach) const {
     const Box box = box_of(part);
     const double squared = reach * reach * (1.0 + 1e-9);  // rounding must not lose the nearest
     std::vector<std::uint32_t> kept;
     kept.reserve(near.size());
     for (const std::uint32_t t : near) {
-      if (box.squaredExteriorDistance(to_.boxes[t]) <= squared) kept.push_back(t);
+      if (box.squaredExteriorDistance(box_of(to_.triangles()[t])) <= squared) kept.push_back(t);
     }
     return kept;
   }
 
-  const Surface& to_;
+  const TriangleSearch& to_;
   double tolerance_;
   SurfaceDistance found_;
   std::size_t steps_ = 0;
 };
 
-double greatest_sampled(const Surface& from, const Surface& to) {
+double greatest_sampled(const TriangleSearch& from, const TriangleSearch& to) {
   double greatest = 0.0;
   const auto look = [&](const Vector& p) {
-    greatest = std::max(greatest, to.tree.squared_distance({p.x(), p.y(), p.z()}));
+    greatest = std::max(greatest, to.nearest(p).squared_distance);
   };
-  for (const auto& [a, b, c] : from.corners) {
+  for (const auto& [a, b, c] : from.triangles()) {
     for (const Vector& p : {a, b, c}) look(p);
     look(0.5 * (a + b));
     look(0.5 * (b + c));
@@ -191,9 +266,9 @@ tl::unexpected<Error> fail_without_surface(const std::string& what) {
 
 Result<SurfaceDistance> sampled_distance(const Mesh& a, const Mesh& b, const std::string& what) {
   return guard_cgal(what + ": measuring a distance", [&]() -> Result<SurfaceDistance> {
-    const Surface first(a);
-    const Surface second(b);
-    if (first.corners.empty() || second.corners.empty()) return fail_without_surface(what);
+    const TriangleSearch first(surface_of(a));
+    const TriangleSearch second(surface_of(b));
+    if (first.empty() || second.empty()) return fail_without_surface(what);
     return SurfaceDistance{
         .lower_m = std::max(greatest_sampled(first, second), greatest_sampled(second, first)),
         .upper_m = std::numeric_limits<double>::infinity()};
@@ -203,9 +278,9 @@ Result<SurfaceDistance> sampled_distance(const Mesh& a, const Mesh& b, const std
 Result<SurfaceDistance> hausdorff_distance(const Mesh& a, const Mesh& b, double tolerance_m,
                                            const std::string& what) {
   return guard_cgal(what + ": measuring a distance", [&]() -> Result<SurfaceDistance> {
-    const Surface first(a);
-    const Surface second(b);
-    if (first.corners.empty() || second.corners.empty()) return fail_without_surface(what);
+    const TriangleSearch first(surface_of(a));
+    const TriangleSearch second(surface_of(b));
+    if (first.empty() || second.empty()) return fail_without_surface(what);
     const SurfaceDistance there = DirectedDistance(second, tolerance_m, 0.0).measure(first);
     const SurfaceDistance back =
         DirectedDistance(first, tolerance_m, there.lower_m).measure(second);

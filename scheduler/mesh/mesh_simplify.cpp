@@ -203,15 +203,14 @@ std::shared_ptr<SimplifyOriginal> keep_original(const Mesh& mesh) {
   auto original = std::make_shared<SimplifyOriginal>();
   original->mesh = mesh;
   original->charts = uv_charts(mesh, edge_uses(mesh));
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const CgalKernel::Triangle_3 triangle(cgal_point(mesh.positions[a]),
-                                          cgal_point(mesh.positions[b]),
-                                          cgal_point(mesh.positions[c]));
-    if (!triangle.is_degenerate()) original->triangles.push_back(triangle);
+  std::vector<TriangleCorners> surface;
+  for (const auto& triangle : mesh.triangles) {
+    std::array<Point, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = cgal_point(mesh.positions[triangle[i]]);
+    if (CGAL::collinear(p[0], p[1], p[2])) continue;
+    surface.push_back({vector_of(p[0]), vector_of(p[1]), vector_of(p[2])});
   }
-  original->tree.insert(original->triangles.cbegin(), original->triangles.cend());
-  original->tree.build();
-  original->tree.accelerate_distance_queries();
+  original->surface = std::make_unique<TriangleSearch>(std::move(surface));
   original->uvs = std::make_unique<UvSource>(original->mesh, original->charts);
   return original;
 }

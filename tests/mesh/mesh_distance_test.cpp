@@ -51,6 +51,34 @@ TEST(MeshDistance, AgreesWithCgal) {
   }
 }
 
+// A flat square of n × n cells whose inner vertices are moved within the plane.
+Mesh flat_grid(std::uint32_t n, float move) {
+  Mesh mesh = example_patch(n);
+  for (auto& p : mesh.positions) {
+    const bool inner = p[0] > 0.0f && p[0] < 0.299f && p[1] > 0.0f && p[1] < 0.199f;
+    p = {p[0] + (inner ? move : 0.0f), p[1] + (inner ? 0.7f * move : 0.0f), 0.0f};
+  }
+  return mesh;
+}
+
+TEST(MeshDistance, OfFlatSurfacesIsQuicklyToldWhateverTheirTriangles) {
+  // As compression moves vertices: halving triangles until each is within one of the other mesh
+  // would take a hundred million steps.
+  for (const auto& [a, b] : {std::pair(flat_grid(5, 0.0f), flat_grid(5, 4e-6f)),
+                             std::pair(flat_grid(40, 0.0f), flat_grid(40, 4e-6f)),
+                             std::pair(flat_grid(40, 0.0f), flat_grid(3, 0.0f))}) {
+    const auto found = hausdorff_distance(a, b, 1e-6, "grids");
+    ASSERT_TRUE(found);
+    EXPECT_LT(found->lower_m, 1e-8);
+    EXPECT_LE(found->upper_m, found->lower_m + 1e-6);
+    const auto apart = hausdorff_distance(a, shifted(b, 0.001f), 1e-6, "grids");
+    ASSERT_TRUE(apart);
+    EXPECT_LE(apart->lower_m, 0.0010001);
+    EXPECT_GE(apart->upper_m, 0.0009999);
+    EXPECT_LE(apart->upper_m - apart->lower_m, 1.1e-6);
+  }
+}
+
 TEST(MeshDistance, WithoutASurfaceThereIsNone) {
   Mesh flat = example_patch(1);
   for (auto& p : flat.positions) p = {p[0], 0.0f, 0.0f};
