@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "image/png_file.h"
 #include "rays/ray_scene.h"
 #include "spec/frame_spec.h"
 
@@ -64,19 +65,44 @@ Eigen::Affine3d fitted(const Mesh& mesh, double distance) {
   return camera_from_object;
 }
 
-/// Meshes that differ in nothing but the slot that is kept, so that a hit tells the slot.
-std::vector<RayInstance> slots_of(const Mesh& mesh, const Eigen::Affine3d& camera_from_object) {
-  std::vector<RayInstance> instances;
-  for (std::uint32_t slot = 0; slot < mesh.slot_names.size(); ++slot) {
-    Mesh part = mesh;
-    part.triangles.clear();
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (mesh.triangle_slots[t] == slot) part.triangles.push_back(mesh.triangles[t]);
+/// The triangles of one slot with the vertices that they need. `number` has an entry for each
+/// vertex of the mesh, kUnused between the calls.
+constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+Mesh part_of(const Mesh& mesh, const std::vector<std::size_t>& triangles,
+             std::vector<std::uint32_t>& number) {
+  Mesh part;
+  part.smooth_angle_rad = mesh.smooth_angle_rad;
+  for (const std::size_t t : triangles) {
+    part.triangles.push_back(mesh.triangles[t]);
+    for (std::uint32_t& vertex : part.triangles.back()) {
+      if (number[vertex] == kUnused) {
+        number[vertex] = static_cast<std::uint32_t>(part.positions.size());
+        part.positions.push_back(mesh.positions[vertex]);
+      }
+      vertex = number[vertex];
     }
-    // Embree takes no mesh without triangles: of a slot that has none, nothing is seen.
-    const bool seen = !part.triangles.empty();
-    instances.push_back(
-        {std::make_shared<const RayMesh>(seen ? part : mesh), camera_from_object, seen});
+  }
+  for (const std::size_t t : triangles) {
+    for (const std::uint32_t vertex : mesh.triangles[t]) number[vertex] = kUnused;
+  }
+  return part;
+}
+
+/// A mesh for each slot that has triangles, so that a hit tells the slot. `slots` gets their
+/// numbers.
+std::vector<RayInstance> slots_of(const Mesh& mesh, const Eigen::Affine3d& camera_from_object,
+                                  std::vector<std::size_t>& slots) {
+  std::vector<std::vector<std::size_t>> triangles(mesh.slot_names.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    triangles[mesh.triangle_slots[t]].push_back(t);
+  }
+  std::vector<RayInstance> instances;
+  std::vector<std::uint32_t> number(mesh.positions.size(), kUnused);
+  for (std::size_t slot = 0; slot < triangles.size(); ++slot) {
+    if (triangles[slot].empty()) continue;
+    instances.push_back({std::make_shared<const RayMesh>(part_of(mesh, triangles[slot], number)),
+                         camera_from_object, true});
+    slots.push_back(slot);
   }
   return instances;
 }
@@ -89,8 +115,9 @@ Image<std::uint8_t> thumbnail(const Mesh& mesh, int side_px) {
   const int side = kSubpixels * side_px;
   const double focal = 0.46 * side * kDistance;
   const double middle = 0.5 * (side - 1);
+  std::vector<std::size_t> slots;
   const RayScene scene({side, side, {focal, focal}, {middle, middle}, 0.1, 100.0},
-                       slots_of(mesh, fitted(mesh, kDistance)));
+                       slots_of(mesh, fitted(mesh, kDistance), slots));
   const RayImage traced = scene.trace({.normals = true});
   Image<std::uint8_t> picture(side_px, side_px, 3);
   for (int y = 0; y < side_px; ++y) {
@@ -99,11 +126,14 @@ Image<std::uint8_t> thumbnail(const Mesh& mesh, int side_px) {
       for (int sub = 0; sub < kSubpixels * kSubpixels; ++sub) {
         const std::size_t at =
             traced.index(kSubpixels * x + sub % kSubpixels, kSubpixels * y + sub / kSubpixels);
-        const int slot = traced.instance[at];
+        const int hit = traced.instance[at];
         for (std::size_t c = 0; c < 3; ++c) {
-          sum[c] += slot < 0 ? 1.0
-                             : kSlotTints[static_cast<std::size_t>(slot) % kSlotTints.size()][c] *
-                                   shade(traced.normals[at]);
+          if (hit < 0) {
+            sum[c] += 1.0;
+            continue;
+          }
+          const std::size_t slot = slots[static_cast<std::size_t>(hit)];
+          sum[c] += kSlotTints[slot % kSlotTints.size()][c] * shade(traced.normals[at]);
         }
       }
       for (int c = 0; c < 3; ++c) {
@@ -113,6 +143,11 @@ Image<std::uint8_t> thumbnail(const Mesh& mesh, int side_px) {
     }
   }
   return picture;
+}
+
+std::string thumbnail_png(const Mesh& mesh) {
+  constexpr int kSide = 256;
+  return encode_png(thumbnail(mesh, kSide));
 }
 
 }  // namespace seedframe

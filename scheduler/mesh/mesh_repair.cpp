@@ -59,6 +59,22 @@ std::size_t drop_unused_vertices(Mesh& mesh) {
   return dropped;
 }
 
+// A slot may come without triangles, or lose them to the repairs: nobody could give it a material.
+std::size_t drop_unused_slots(Mesh& mesh) {
+  std::vector<std::uint32_t> new_index(mesh.slot_names.size(), 0);
+  for (const std::uint32_t slot : mesh.triangle_slots) new_index[slot] = 1;
+  std::uint32_t used = 0;
+  for (std::size_t slot = 0; slot < new_index.size(); ++slot) {
+    if (new_index[slot] == 0) continue;
+    if (used != slot) mesh.slot_names[used] = std::move(mesh.slot_names[slot]);
+    new_index[slot] = used++;
+  }
+  const std::size_t dropped = mesh.slot_names.size() - used;
+  mesh.slot_names.resize(used);
+  for (std::uint32_t& slot : mesh.triangle_slots) slot = new_index[slot];
+  return dropped;
+}
+
 bool names_a_vertex_twice(const std::array<std::uint32_t, 3>& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
@@ -261,7 +277,7 @@ void face_outward(Mesh& mesh, RepairReport& report) {
 bool RepairReport::changed() const {
   return unused_vertices + degenerate_triangles + duplicate_triangles + joined_edges +
              non_manifold_edges + non_manifold_vertices + turned_triangles + inside_out_parts +
-             filled_holes >
+             unused_slots + filled_holes >
          0;
 }
 
@@ -284,6 +300,7 @@ Result<RepairedMesh> repair_mesh(const Mesh& mesh, const RepairOptions& options,
       out.report.added_triangles = filled.triangles;
     }
     face_outward(out.mesh, out.report);
+    out.report.unused_slots = drop_unused_slots(out.mesh);
     if (Status status = check_mesh(out.mesh, what); !status) return forward_error(status);
     return out;
   });

@@ -24,6 +24,7 @@ struct RepairReport {
   std::size_t non_manifold_vertices = 0;  ///< where surfaces touch in a point; taken apart
   std::size_t turned_triangles = 0;       ///< wound against their neighbours; turned round
   std::size_t inside_out_parts = 0;       ///< closed parts that faced inward; turned round
+  std::size_t unused_slots = 0;           ///< without triangles; removed
   std::size_t filled_holes = 0;
   std::size_t added_triangles = 0;  ///< by filling holes
 

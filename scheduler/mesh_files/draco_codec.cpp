@@ -29,14 +29,30 @@ using PointKey = std::array<std::uint32_t, 3>;
 // Corners that agree in position, UV and slot are one Draco point.
 struct Points {
   std::vector<std::array<float, 2>> uvs;
+  std::vector<std::array<std::uint32_t, 1>> slots;  // those that triangles have, in order
   std::vector<PointKey> keys;
   std::vector<draco::Mesh::Face> faces;
 };
+
+// Draco must not be given values that no point has: its encoder then throws std::bad_alloc. Returns
+// the index in `values` of each slot.
+std::vector<std::uint32_t> collect_slots(const Mesh& mesh,
+                                         std::vector<std::array<std::uint32_t, 1>>& values) {
+  std::vector<std::uint32_t> index(mesh.slot_names.size(), 0);
+  for (const std::uint32_t slot : mesh.triangle_slots) index[slot] = 1;
+  for (std::uint32_t slot = 0; slot < index.size(); ++slot) {
+    if (index[slot] == 0) continue;
+    index[slot] = static_cast<std::uint32_t>(values.size());
+    values.push_back({slot});
+  }
+  return index;
+}
 
 Points collect_points(const Mesh& mesh) {
   Points points;
   std::map<std::array<float, 2>, std::uint32_t> uv_indices;
   std::map<PointKey, std::uint32_t> point_indices;
+  const std::vector<std::uint32_t> slot_indices = collect_slots(mesh, points.slots);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     draco::Mesh::Face face;
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -44,7 +60,8 @@ Points collect_points(const Mesh& mesh) {
       const auto [uv_entry, new_uv] =
           uv_indices.try_emplace(uv, static_cast<std::uint32_t>(points.uvs.size()));
       if (new_uv) points.uvs.push_back(uv);
-      const PointKey key{mesh.triangles[t][corner], uv_entry->second, mesh.triangle_slots[t]};
+      const PointKey key{mesh.triangles[t][corner], uv_entry->second,
+                         slot_indices[mesh.triangle_slots[t]]};
       const auto [point_entry, new_point] =
           point_indices.try_emplace(key, static_cast<std::uint32_t>(points.keys.size()));
       if (new_point) points.keys.push_back(key);
@@ -70,12 +87,6 @@ int add_attribute(draco::Mesh& out, GeometryAttribute::Type type, draco::DataTyp
     attribute->SetPointMapEntry(PointIndex(i), AttributeValueIndex(keys[i][which]));
   }
   return out.AddAttribute(std::move(attribute));
-}
-
-std::vector<std::array<std::uint32_t, 1>> slot_values(const Mesh& mesh) {
-  std::vector<std::array<std::uint32_t, 1>> values;
-  for (std::uint32_t slot = 0; slot < mesh.slot_names.size(); ++slot) values.push_back({slot});
-  return values;
 }
 
 // A stream is damaged in ways that Draco does not notice: it checks neither types nor indices.
@@ -185,7 +196,7 @@ Result<std::string> encode_draco(const Mesh& mesh, const DracoOptions& options) 
   const int uvs = add_attribute(out, GeometryAttribute::TEX_COORD, draco::DT_FLOAT32, points.uvs,
                                 points.keys, 1);
   if (mesh.slot_names.size() > 1) {
-    add_attribute(out, kSlotAttribute, draco::DT_UINT32, slot_values(mesh), points.keys, 2);
+    add_attribute(out, kSlotAttribute, draco::DT_UINT32, points.slots, points.keys, 2);
   }
   for (const auto& face : points.faces) out.AddFace(face);
 
@@ -200,10 +211,13 @@ Result<std::string> encode_draco(const Mesh& mesh, const DracoOptions& options) 
   // Above speed 5 Draco splits the mesh at UV seams, and vertices would no longer be shared.
   encoder.SetSpeedOptions(3, 3);
   draco::EncoderBuffer buffer;
-  if (const draco::Status status = encoder.EncodeToBuffer(&buffer); !status.ok()) {
+  try {
+    const draco::Status status = encoder.EncodeToBuffer(&buffer);
+    if (status.ok()) return std::string(buffer.data(), buffer.size());
     return fail(ErrorKind::kInput, "Draco cannot compress the mesh: {}", status.error_msg_string());
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::kInput, "Draco cannot compress the mesh: {}", error.what());
   }
-  return std::string(buffer.data(), buffer.size());
 }
 
 Result<Mesh> decode_draco(std::string_view bytes, const std::string& what) {

@@ -166,6 +166,22 @@ TEST(MeshRepair, FillsHolesOnRequestUpToTheirSize) {
   EXPECT_TRUE(check_mesh(out.mesh, "filled"));
 }
 
+TEST(MeshRepair, SlotsWithoutTrianglesAreDropped) {
+  Mesh mesh = example_cube();
+  mesh.slot_names = {"none", "sides", "doubled", "caps", "last"};
+  for (std::uint32_t& slot : mesh.triangle_slots) slot = slot == 0 ? 1 : 3;
+  const std::size_t triangles = mesh.triangles.size();
+  for (std::size_t t = 0; t < triangles; ++t) {  // each once more, the other way round
+    add_triangle(mesh, {mesh.triangles[t][0], mesh.triangles[t][2], mesh.triangles[t][1]});
+    mesh.triangle_slots.back() = 2;
+  }
+  const RepairedMesh out = repaired(mesh);
+  EXPECT_EQ(out.report.duplicate_triangles, triangles);
+  EXPECT_EQ(out.report.unused_slots, 3u);
+  EXPECT_EQ(out.mesh.slot_names, (std::vector<std::string>{"sides", "caps"}));
+  EXPECT_EQ(out.mesh.triangle_slots, example_cube().triangle_slots);
+}
+
 TEST(MeshRepair, NothingLeftIsAnError) {
   Mesh mesh = example_patch(1);
   mesh.triangles = {{0, 0, 1}, {2, 2, 3}};

@@ -137,6 +137,23 @@ TEST(DracoCodec, TakesMeshesThatAreNotManifold) {
   expect_same_mesh(mesh, *decoded, tolerance_of(mesh, {}));
 }
 
+TEST(DracoCodec, KeepsTheNumbersOfSlotsAroundThoseWithoutTriangles) {
+  Mesh mesh = example_cube();
+  mesh.slot_names = {"none", "sides", "none either", "caps", "nor here"};
+  for (const std::uint32_t caps : {1u, 3u}) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      mesh.triangle_slots[t] = t < 8 ? 1 : caps;
+    }
+    const auto stream = encode_draco(mesh);
+    ASSERT_TRUE(stream) << stream.error().message;
+    const auto decoded = decode_draco(*stream, "mesh");
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    std::vector<std::uint32_t> slots = decoded->triangle_slots;
+    std::sort(slots.begin(), slots.end());
+    EXPECT_EQ(slots, (std::vector<std::uint32_t>{1, 1, 1, 1, 1, 1, 1, 1, caps, caps, caps, caps}));
+  }
+}
+
 TEST(DracoCodec, RefusesAMeshThatIsWrong) {
   Mesh mesh = example_cube();
   mesh.triangles[0][0] = 99;
