@@ -71,8 +71,14 @@ tl::unexpected<Error> system_failure(const char* action, const fs::path& path, i
 
 Result<std::string> read_file(const fs::path& path, std::uintmax_t most) {
   std::error_code error;
-  if (fs::is_directory(path, error)) {
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) {
     return fail(ErrorKind::kEnvironment, "cannot read {}: it is a folder", path.string());
+  }
+  // A pipe would be waited for, a device read without end.
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    return fail(ErrorKind::kInput, "cannot read {}: it is a device, a pipe or a socket, no file",
+                path.string());
   }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);

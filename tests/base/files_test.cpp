@@ -1,6 +1,7 @@
 #include "base/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "base/nearest_name.h"
 #include "base/sha256.h"
@@ -71,6 +72,16 @@ TEST_F(FilesTest, ErrorsNameTheFileAndTheReason) {
   const auto full = write_file("/dev/full", "x");
   ASSERT_FALSE(full);
   EXPECT_NE(full.error().message.find("No space left"), std::string::npos);
+}
+
+TEST_F(FilesTest, WhatIsNoFileIsNeitherWaitedForNorReadWithoutEnd) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const fs::path& path : {folder_ / "pipe", fs::path("/dev/zero")}) {
+    const auto read = read_file(path);
+    ASSERT_FALSE(read) << path;
+    EXPECT_EQ(read.error().kind, ErrorKind::kInput);
+    EXPECT_NE(read.error().message.find("it is a device, a pipe or a socket"), std::string::npos);
+  }
 }
 
 TEST(Sha256, MatchesFips180) {

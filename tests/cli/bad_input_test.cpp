@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/cli/program.h"
 #include "tests/fixtures/script.h"
@@ -40,6 +41,15 @@ TEST_F(BadInputTest, MissingFilesAndAssets) {
   expect_refused(with_object("{asset: gaer}"), "scene.yaml:5:");
   expect_refused(with_object("{asset: gaer}"), "did you mean 'gear'?");
   expect_refused(with_object("{asset: gear, material: nickel_}"), "there is no material 'nickel_'");
+}
+
+TEST_F(BadInputTest, ConfigsThatAreNoFiles) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.yaml").c_str(), 0600), 0);
+  for (const std::string config : {"pipe.yaml", "/dev/zero"}) {
+    const Outcome outcome = run({"check", config});
+    EXPECT_EQ(outcome.exit_code, 2) << config;
+    EXPECT_THAT(outcome.errors, HasSubstr("cannot read " + config + ": it is a device, a pipe"));
+  }
 }
 
 TEST_F(BadInputTest, NumbersThatMakeNoScene) {
