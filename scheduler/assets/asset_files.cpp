@@ -97,6 +97,7 @@ Json to_json(const RepairReport& repairs) {
           {"non_manifold_vertices", repairs.non_manifold_vertices},
           {"turned_triangles", repairs.turned_triangles},
           {"inside_out_parts", repairs.inside_out_parts},
+          {"unused_slots", repairs.unused_slots},
           {"filled_holes", repairs.filled_holes},
           {"added_triangles", repairs.added_triangles}};
 }
@@ -249,6 +250,9 @@ Json asset_json(const AssetDescription& asset) {
                {"measures", to_json(asset.measures, asset.self_intersections)},
                {"repairs", to_json(asset.repairs)}};
   if (!asset.keypoints.points.empty()) json["keypoints"] = to_json(asset.keypoints);
+  if (!asset.origin_m.isZero(0.0)) {
+    json["origin_m"] = {asset.origin_m.x(), asset.origin_m.y(), asset.origin_m.z()};
+  }
   return json;
 }
 
@@ -267,20 +271,32 @@ Status set_keypoints(const fs::path& folder, const KeypointSet& keypoints) {
 }
 
 Status write_asset(const fs::path& folder, const AssetDescription& asset,
-                   const std::vector<std::string>& streams) {
+                   const std::vector<std::string>& streams, std::string_view thumbnail_png) {
   // Hidden, so that no library takes it for an asset.
   const fs::path temporary = folder.parent_path() / ("." + asset.name + ".importing");
   std::error_code error;
   fs::remove_all(temporary, error);  // left by an import that was killed
-  if (Status status = make_folders(temporary); !status) return status;
-  for (std::size_t k = 0; k < streams.size(); ++k) {
-    Status status = write_file(temporary / asset.levels[k].file, streams[k]);
-    if (!status) return status;
+  Status written = make_folders(temporary);
+  for (std::size_t k = 0; written && k < streams.size(); ++k) {
+    written = write_file(temporary / asset.levels[k].file, streams[k]);
   }
-  Status status =
-      write_file(temporary / asset_files::kDescription, readable_json(asset_json(asset)));
-  if (!status) return status;
-  return commit_folder(temporary, folder);
+  if (written) {
+    written = write_file(temporary / asset_files::kDescription, readable_json(asset_json(asset)));
+  }
+  if (written) written = write_file(temporary / asset_files::kThumbnail, thumbnail_png);
+  if (written) written = commit_folder(temporary, folder);
+  if (!written) fs::remove_all(temporary, error);
+  return written;
+}
+
+Status remove_asset(const fs::path& folder) {
+  const fs::path hidden = folder.parent_path() / ("." + folder.filename().string() + ".removing");
+  std::error_code error;
+  fs::remove_all(hidden, error);  // left by a removal that was killed
+  if (Status renamed = rename_file(folder, hidden); !renamed) return renamed;
+  fs::remove_all(hidden, error);
+  if (!error) return {};
+  return system_failure("remove", hidden, error.value());
 }
 
 }  // namespace seedframe

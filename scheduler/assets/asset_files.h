@@ -55,7 +55,9 @@ struct AssetDescription {
   MeshMeasures measures;               ///< of level 0; its centroid is not stored
   std::size_t self_intersections = 0;  ///< of the mesh before compression
   RepairReport repairs;                ///< written, not read
-  KeypointSet keypoints;               ///< may have none
+  /// Where the imported file has the mesh's origin, metres, z up. Written, not read.
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
+  KeypointSet keypoints;  ///< may have none
 };
 
 /// The name must be the folder's.
@@ -67,8 +69,12 @@ Json asset_json(const AssetDescription& asset);
 /// Puts other keypoints into asset.json and leaves the rest of it as it is.
 Status set_keypoints(const std::filesystem::path& folder, const KeypointSet& keypoints);
 
-/// Writes asset.json and the streams of all levels; the folder appears, or is replaced, at once.
+/// Writes asset.json, the streams of all levels and the thumbnail; the folder appears, or is
+/// replaced, at once.
 Status write_asset(const std::filesystem::path& folder, const AssetDescription& asset,
-                   const std::vector<std::string>& streams);
+                   const std::vector<std::string>& streams, std::string_view thumbnail_png);
+
+/// Removes an asset's folder, or the link to it; its name is gone at once.
+Status remove_asset(const std::filesystem::path& folder);
 
 }  // namespace seedframe

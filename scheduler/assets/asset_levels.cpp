@@ -46,13 +46,12 @@ Result<StoredLevel> make_level_0(const Mesh& mesh, const LevelOptions& options,
   if (Status status = compress(mesh, level, what); !status) return forward_error(status);
   const auto distance = hausdorff_distance(mesh, level.mesh, level.bound_m / 16.0, what);
   if (!distance) return forward_error(distance);
-  level.error_m = distance->upper_m;
+  level.error_m = distance->upper_m + options.rounding_m;
   if (level.error_m <= level.bound_m) return level;
-  return fail(
-      ErrorKind::kInput,
-      "{}: compressed, the surface is {:.3g} m off, more than {:.3g} m: the coordinates are "
-      "too coarse as 32-bit floats; move the mesh to the origin, or lower --pixels",
-      what, level.error_m, level.bound_m);
+  return fail(ErrorKind::kInput,
+              "{}: stored, the surface is {:.3g} m off, more than the {:.3g} m that --pixels {:g} "
+              "asks for: lower --pixels",
+              what, level.error_m, level.bound_m, options.pixels);
 }
 
 // One coarser level; nothing if it saves too little or no try stays within the bound.
@@ -105,12 +104,17 @@ class LevelMaker {
 
 Result<std::vector<StoredLevel>> make_levels(const Mesh& mesh, const LevelOptions& options,
                                              const std::string& what) {
+  const auto begin = [&](const std::string& step) {
+    if (options.on_step) options.on_step(step);
+  };
   std::vector<StoredLevel> levels;
+  begin("compressing it and measuring the error");
   levels.reserve(1 + static_cast<std::size_t>(std::max(0, options.most_levels)));
   auto finest = make_level_0(mesh, options, what);
   if (!finest) return forward_error(finest);
   levels.push_back(std::move(*finest));
   if (options.most_levels <= 0 || mesh.triangles.size() > kMostSimplifiedTriangles) return levels;
+  begin("preparing coarser levels");
   auto simplifier = MeshSimplifier::create(levels.front().mesh, what);
   // Compression can weld what was apart by less than a step: such a mesh has one level only.
   if (!simplifier) return levels;
@@ -118,6 +122,7 @@ Result<std::vector<StoredLevel>> make_levels(const Mesh& mesh, const LevelOption
   double pixels = options.pixels;
   for (int k = 1; k <= options.most_levels; ++k) {
     pixels /= 4.0;
+    begin(fmt::format("level {} of {}", k, options.most_levels));
     auto level = maker.make(pixels, levels.back().mesh.triangles.size());
     if (!level) return forward_error(level);
     if (*level) levels.push_back(std::move(**level));

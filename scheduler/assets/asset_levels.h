@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct LevelOptions {
   double pixels = 1024.0;
   /// Coarser levels, at most; level k is for views of at most pixels / 4^k.
   int most_levels = 4;
+  /// How far the mesh already is from what its errors are measured against (MeshFile::rounding_m).
+  double rounding_m = 0.0;
+  std::function<void(const std::string& step)> on_step = {};  ///< what is begun, if it is set
 };
 
 /// The error that may be seen: of a pixel.
@@ -34,7 +38,8 @@ struct StoredLevel {
   double pixels = 0.0;   ///< for views in which the longest side spans at most this many
   double bound_m = 0.0;  ///< 1/20 pixel of such a view
   /// Every point of the surface is within this of that of the mesh before, both ways: of the
-  /// imported mesh for level 0, of level 0 for the others, measured after compression.
+  /// imported mesh (rounding_m included) for level 0, of level 0 for the others, measured after
+  /// compression.
   double error_m = 0.0;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "image/image.h"
 #include "mesh/mesh.h"
@@ -12,5 +13,8 @@ namespace seedframe {
 /// with each material slot in a tint of its own. The same bytes for the same mesh. Throws
 /// std::bad_alloc.
 Image<std::uint8_t> thumbnail(const Mesh& mesh, int side_px);
+
+/// The thumbnail.png of an asset: the bytes of a PNG file.
+std::string thumbnail_png(const Mesh& mesh);
 
 }  // namespace seedframe

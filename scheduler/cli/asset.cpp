@@ -1,12 +1,11 @@
-#include <cstdio>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "assets/asset_check.h"
 #include "assets/asset_files.h"
@@ -15,17 +14,22 @@
 #include "assets/thumbnail.h"
 #include "base/canonical_json.h"
 #include "base/files.h"
+#include "base/utf8.h"
 #include "cli/asset_keypoints.h"
 #include "cli/asset_report.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
+#include "cli/progress.h"
 #include "cli/verb.h"
-#include "image/png_file.h"
 
 namespace seedframe {
 namespace {
 
 namespace fs = std::filesystem;
+
+double metres_per(const std::string& unit) {
+  return unit == "mm" ? 0.001 : unit == "cm" ? 0.01 : unit == "in" ? 0.0254 : 1.0;
+}
 
 // What the user asked for; the subcommands share it, as only one of them runs.
 struct Options {
@@ -34,92 +38,127 @@ struct Options {
   std::vector<std::string> names;
   std::optional<std::string> category;
   std::string up;
+  std::string unit;
   AssetImport import;
   AssetCheck check;
   KeypointArguments keypoints;
   bool json = false;
 
-  fs::path library_root() const {
-    return root.empty() ? seedframe_home() / "assets" : fs::path(root);
+  /// Where assets are written: never among the program's own, unless they are named.
+  fs::path written_root() const { return root.empty() ? own_assets() : fs::path(root); }
+
+  /// Where they are read: the user's own, then the built-in ones.
+  std::vector<fs::path> read_roots() const {
+    if (!root.empty()) return {root};
+    std::error_code error;
+    std::vector<fs::path> roots;
+    if (fs::is_directory(own_assets(), error)) roots.push_back(own_assets());
+    roots.push_back(seedframe_home() / "assets");
+    return roots;
   }
 };
 
-// "M12 bolt.v2.obj" becomes "M12_bolt_v2".
-std::string name_from_file(const fs::path& file) {
-  std::string name = file.stem().string();
-  for (char& c : name) {
-    if (!is_asset_name(std::string(1, c))) c = '_';
+std::string joined(const std::vector<fs::path>& folders) {
+  std::string text;
+  for (const fs::path& folder : folders) {
+    text += (text.empty() ? "" : " and ") + folder.string();
   }
-  return name;
+  return text;
 }
 
-/// The built-in assets of an installed program are not those of its user.
-Status check_writable(const Options& options) {
-  const fs::path root = options.library_root();
-  if (!options.root.empty() || ::access(root.c_str(), W_OK) == 0) return {};
-  return fail(ErrorKind::kInput,
-              "you may not write to the built-in assets in {}: name a library of your own with "
-              "--root DIR, and its folder in the config's asset_folders",
-              root.string());
+// "M12 bolt.v2.obj" becomes "M12_bolt_v2".
+std::string name_from_file(const fs::path& file) {
+  constexpr std::size_t kLongest = 64;
+  std::string name;
+  for (const char c : as_utf8(file.stem().string())) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool inside_a_character = (byte & 0xC0u) == 0x80u;
+    if (!inside_a_character) name += is_asset_name(std::string(1, c)) ? c : '_';
+  }
+  return name.substr(0, kLongest);
 }
 
 Status draw_thumbnail(const fs::path& folder) {
-  constexpr int kSide = 256;
   const auto asset = read_asset(folder);
   if (!asset) return forward_error(asset);
-  return write_file_atomically(folder / asset_files::kThumbnail,
-                               encode_png(thumbnail(asset->mesh, kSide)));
+  return write_file_atomically(folder / asset_files::kThumbnail, thumbnail_png(asset->mesh));
+}
+
+AssetImport request_for(const Options& options, const fs::path& file) {
+  AssetImport request = options.import;
+  request.file = file;
+  request.root = options.written_root();
+  if (request.name.empty()) request.name = name_from_file(file);
+  request.category = as_utf8(options.category.value_or(request.name));
+  request.description = as_utf8(request.description);
+  if (!options.up.empty()) request.up = options.up == "y" ? UpAxis::kY : UpAxis::kZ;
+  if (!options.unit.empty()) request.scale = metres_per(options.unit);
+  return request;
+}
+
+// One file's error, or lack of memory, is none of the others'.
+Result<ImportReport> import_file(const Options& options, const std::string& file) {
+  AssetImport request = request_for(options, file);
+  StepProgress progress(file);
+  request.on_step = [&progress](const std::string& step) { progress.begin(step); };
+  try {
+    auto imported = import_asset(request);
+    if (imported || imported.error().message.find(file) != std::string::npos) return imported;
+    return fail(imported.error().kind, "{}: {}", file, imported.error().message);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::kEnvironment, "{}: there is not enough memory to import it", file);
+  }
 }
 
 int import_files(const Options& options) {
   if (!options.import.name.empty() && options.files.size() > 1) {
     return report({ErrorKind::kInput, "--name names one asset: import the files one by one"});
   }
-  if (!options.import.dry_run) {
-    if (Status may = check_writable(options); !may) return report(may.error());
-  }
   Json reports = Json::array();
+  std::size_t imported = 0;
+  int failure = kExitOk;
   for (const std::string& file : options.files) {
-    AssetImport request = options.import;
-    request.file = file;
-    request.root = options.library_root();
-    if (request.name.empty()) request.name = name_from_file(file);
-    request.category = options.category.value_or(request.name);
-    if (!options.up.empty()) request.up = options.up == "y" ? UpAxis::kY : UpAxis::kZ;
-    const auto imported = import_asset(request);
-    if (!imported) return report(imported.error());
-    if (!request.dry_run) {
-      const Status drawn = draw_thumbnail(request.root / request.name);
-      if (!drawn) return report(drawn.error());
+    const auto found = import_file(options, file);
+    if (!found) {
+      const int code = report(found.error());
+      if (failure == kExitOk) failure = code;
+      continue;
     }
+    ++imported;
     if (options.json) {
-      reports.push_back(import_json(*imported));
+      reports.push_back(import_json(*found));
     } else {
-      fmt::print("{}", import_text(*imported, !request.dry_run));
+      fmt::print("{}", import_text(*found, !options.import.dry_run));
     }
   }
-  if (options.json) fmt::print("{}", readable_json(reports));
-  return 0;
+  if (options.json) {
+    fmt::print("{}", readable_json(reports));
+  } else if (options.root.empty() && imported > 0 && !options.import.dry_run) {
+    fmt::print("a config finds it by 'asset_folders: [{}]'\n", options.written_root().string());
+  }
+  return failure != kExitOk && imported > 0 ? kExitSomeFailed : failure;
 }
 
-// Names of the library's assets, those that the user named or all.
-Result<std::vector<std::string>> chosen_assets(const Options& options) {
-  const auto library = AssetLibrary::open({options.library_root()});
+// Folders of assets, those that the user named or all of the libraries.
+Result<std::vector<fs::path>> chosen_assets(const std::vector<fs::path>& roots,
+                                            const std::vector<std::string>& chosen) {
+  const auto library = AssetLibrary::open(roots);
   if (!library) return forward_error(library);
-  const std::vector<std::string> names = options.names.empty() ? library->names() : options.names;
-  for (const std::string& name : names) {
-    if (const auto folder = library->folder(name); !folder) return forward_error(folder);
+  std::vector<fs::path> folders;
+  for (const std::string& name : chosen.empty() ? library->names() : chosen) {
+    const auto folder = library->folder(name);
+    if (!folder) return forward_error(folder);
+    folders.push_back(*folder);
   }
-  return names;
+  return folders;
 }
 
 int list_assets(const Options& options) {
-  const auto names = chosen_assets(options);
-  if (!names) return report(names.error());
+  const auto folders = chosen_assets(options.read_roots(), options.names);
+  if (!folders) return report(folders.error());
   Json list = Json::array();
   int exit_code = 0;
-  for (const std::string& name : *names) {
-    const fs::path folder = options.library_root() / name;
+  for (const fs::path& folder : *folders) {
     const auto asset = read_asset_description(folder);
     if (!asset) {
       exit_code = report(asset.error());
@@ -129,16 +168,18 @@ int list_assets(const Options& options) {
       fmt::print("{}\n", list_line(*asset, folder));
     }
   }
-  if (options.json) fmt::print("{}", readable_json(list));
+  if (options.json) {
+    fmt::print("{}", readable_json(list));
+  } else {
+    fmt::print("{} assets in {}\n", folders->size(), joined(options.read_roots()));
+  }
   return exit_code;
 }
 
 int draw_thumbnails(const Options& options) {
-  if (Status may = check_writable(options); !may) return report(may.error());
-  const auto names = chosen_assets(options);
-  if (!names) return report(names.error());
-  for (const std::string& name : *names) {
-    const fs::path folder = options.library_root() / name;
+  const auto folders = chosen_assets({options.written_root()}, options.names);
+  if (!folders) return report(folders.error());
+  for (const fs::path& folder : *folders) {
     if (Status drawn = draw_thumbnail(folder); !drawn) return report(drawn.error());
     fmt::print("{}\n", (folder / asset_files::kThumbnail).string());
   }
@@ -147,22 +188,32 @@ int draw_thumbnails(const Options& options) {
 
 // Goes on after a damaged asset, so that one run finds them all.
 int check_assets(const Options& options) {
-  const auto names = chosen_assets(options);
-  if (!names) return report(names.error());
+  const auto folders = chosen_assets(options.read_roots(), options.names);
+  if (!folders) return report(folders.error());
   int exit_code = 0;
   int damaged = 0;
-  for (const std::string& name : *names) {
-    const auto faults = check_asset(options.library_root() / name, options.check);
+  for (const fs::path& folder : *folders) {
+    const auto faults = check_asset(folder, options.check);
     for (const std::string& fault : faults) exit_code = report({ErrorKind::kCorrupt, fault});
     if (!faults.empty()) ++damaged;
   }
-  fmt::print("{} assets in {}, {} damaged\n", names->size(), options.library_root().string(),
+  fmt::print("{} assets in {}, {} damaged\n", folders->size(), joined(options.read_roots()),
              damaged);
   return exit_code;
 }
 
+int remove_assets(const Options& options) {
+  const auto folders = chosen_assets({options.written_root()}, options.names);
+  if (!folders) return report(folders.error());
+  for (const fs::path& folder : *folders) {
+    if (Status removed = remove_asset(folder); !removed) return report(removed.error());
+    fmt::print("removed {}\n", folder.string());
+  }
+  return 0;
+}
+
 int show_keypoints(const Options& options) {
-  return asset_keypoints(options.library_root(), options.keypoints);
+  return asset_keypoints(options.written_root(), options.keypoints);
 }
 
 using Action = int (*)(const Options&);
@@ -173,11 +224,15 @@ CLI::App* add_action(CLI::App& verb, const std::string& name, const std::string&
   CLI::App* added = verb.add_subcommand(name, help);
   added->add_option("--root", options->root, "The asset library's folder")
       ->type_name("DIR")
-      ->default_str("assets beside the program");
+      ->default_str("your own, ~/.local/share/seedframe/assets");
   added->callback([options, on_selected, action] {
     on_selected([options, action] {
-      const auto home = options->root.empty() ? find_home() : fs::path();
-      return home ? action(*options) : report(home.error());
+      if (!options->root.empty()) return action(*options);
+      if (const auto home = find_home(); !home) return report(home.error());
+      if (!own_assets().empty()) return action(*options);
+      return report({ErrorKind::kEnvironment,
+                     "neither HOME nor XDG_DATA_HOME names a folder: say where the asset library "
+                     "is with --root DIR"});
     });
   });
   return added;
@@ -190,8 +245,11 @@ void add_import_options(CLI::App& command, Options& options) {
   command.add_option("--category", options.category,
                      "Class of its labels; without it the asset's name; '' for a distractor");
   command.add_option("--description", import.description, "One line about the asset");
-  command.add_option("--scale", import.scale, "Metres per unit of the file: 0.001 for millimetres")
-      ->capture_default_str();
+  CLI::Option* scale = command.add_option(
+      "--scale", import.scale, "Metres per unit of the file, where --unit has no name for it");
+  command.add_option("--unit", options.unit, "The file's unit; metres for glTF, else guessed")
+      ->check(CLI::IsMember({"mm", "cm", "m", "in"}))
+      ->excludes(scale);
   command.add_option("--up", options.up, "The file's axis that points up; y for glTF, else z")
       ->check(CLI::IsMember({"y", "z"}));
   command
@@ -212,7 +270,7 @@ void add_import_options(CLI::App& command, Options& options) {
   command.add_flag("--force", import.replace, "Replace assets that exist");
   command.add_flag("--dry-run,--check-only", import.dry_run, "Report only, write nothing");
   command.add_flag("--json", options.json, "The report as JSON");
-  command.footer("Example: seedframe asset import bolt.stl --scale 0.001 --category hex_bolt");
+  command.footer("Example: seedframe asset import bolt.stl --unit mm --category hex_bolt");
 }
 
 void add_keypoint_options(CLI::App& command, KeypointArguments& keypoints) {
@@ -234,12 +292,16 @@ void add_keypoint_options(CLI::App& command, KeypointArguments& keypoints) {
 
 void add_asset_verb(CLI::App& app, const OnSelected& on_selected) {
   const auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("asset", "Bring meshes in, list and check them");
+  CLI::App* verb = app.add_subcommand("asset", "Bring meshes in, list, check and remove them");
   verb->require_subcommand(1);
-  verb->footer("Example: seedframe asset import part.obj --scale 0.001");
+  verb->footer("Example: seedframe asset import part.obj --unit mm");
   CLI::App* import = add_action(*verb, "import", "Repair, measure, compress and keep meshes",
                                 options, on_selected, import_files);
   add_import_options(*import, *options);
+  CLI::App* remove = add_action(*verb, "remove", "Remove assets from the library", options,
+                                on_selected, remove_assets);
+  remove->add_option("NAME", options->names, "The assets")->required();
+  remove->footer("Example: seedframe asset remove bolt");
   CLI::App* list =
       add_action(*verb, "list", "What is in the library", options, on_selected, list_assets);
   list->add_option("NAME", options->names, "Only these assets");

@@ -3,12 +3,21 @@
 #include <cmath>
 #include <iterator>
 
+#include <fmt/ranges.h>
+
+#include "base/message_text.h"
+#include "base/utf8.h"
+
 namespace seedframe {
 namespace {
 
 namespace fs = std::filesystem;
 
 std::string size_text(const Eigen::Vector3d& metres) {
+  constexpr double kLong = 10.0;
+  if (metres.maxCoeff() >= kLong) {
+    return fmt::format("{:.1f} × {:.1f} × {:.1f} m", metres.x(), metres.y(), metres.z());
+  }
   const Eigen::Vector3d mm = 1000.0 * metres;
   return fmt::format("{:.1f} × {:.1f} × {:.1f} mm", mm.x(), mm.y(), mm.z());
 }
@@ -57,6 +66,7 @@ std::string repairs_text(const RepairReport& repairs) {
       {repairs.non_manifold_vertices, "non-manifold vertices taken apart"},
       {repairs.turned_triangles, "triangles turned round"},
       {repairs.inside_out_parts, "inside-out parts turned round"},
+      {repairs.unused_slots, "material slots without triangles removed"},
       {repairs.filled_holes, "holes filled"},
       {repairs.kept_slivers, "slivers without area kept"}};
   std::string text;
@@ -81,6 +91,13 @@ std::string levels_text(const AssetDescription& asset) {
   return text;
 }
 
+// Names of files and of what is in them may be of any bytes.
+Json texts_json(const std::vector<std::string>& texts) {
+  Json list = Json::array();
+  for (const std::string& text : texts) list.push_back(as_utf8(text));
+  return list;
+}
+
 std::string thumbnail_of(const fs::path& folder) {
   std::error_code error;
   const fs::path path = folder / asset_files::kThumbnail;
@@ -93,19 +110,27 @@ std::string import_text(const ImportReport& report, bool written) {
   const AssetDescription& asset = report.description;
   std::string text = fmt::format("{}{}: {}, {}\n", asset.name, written ? "" : " (not written)",
                                  asset.source, size_text(asset.measures.box.size()));
+  if (report.unit_was_guessed) {
+    text += "  unit     metres, as the file does not say: --unit mm, cm, m or in\n";
+  }
   text += fmt::format("  surface  {}\n", surface_text(asset.measures));
   text += fmt::format("  axes     {}\n", axes_text(asset.measures));
   text += fmt::format("  repairs  {}\n", repairs_text(asset.repairs));
   text += levels_text(asset);
+  if (!report.not_kept.empty()) {
+    text += fmt::format("  not kept {}\n", fmt::join(report.not_kept, "; "));
+  }
   for (const std::string& warning : report.warnings) {
     text += fmt::format("  warning: {}\n", warning);
   }
-  return text;
+  return printable(text);
 }
 
 Json import_json(const ImportReport& report) {
   Json json = asset_json(report.description);
-  json["warnings"] = report.warnings;
+  json["unit_was_guessed"] = report.unit_was_guessed;
+  json["warnings"] = texts_json(report.warnings);
+  json["not_kept"] = texts_json(report.not_kept);
   return json;
 }
 
@@ -117,10 +142,12 @@ std::string list_line(const AssetDescription& asset, const fs::path& folder) {
     if (&level != asset.levels.data()) coarser += fmt::format(" {}", level.triangles);
   }
   const std::string thumbnail = thumbnail_of(folder);
-  return fmt::format("{:<18} {:>8} triangles {:>8.1f} KiB  {:<24} coarser:{:<24} {}{}", asset.name,
-                     asset.levels[0].triangles, static_cast<double>(bytes) / 1024.0,
-                     size_text(asset.measures.box.size()), coarser.empty() ? " none" : coarser,
-                     asset.description, thumbnail.empty() ? "" : "  " + thumbnail);
+  return printable(
+      fmt::format("{:<18} {:<16} {:>8} triangles {:>8.1f} KiB  {:<24} coarser:{:<24} {}{}",
+                  asset.name, asset.category.empty() ? "(distractor)" : asset.category,
+                  asset.levels[0].triangles, static_cast<double>(bytes) / 1024.0,
+                  size_text(asset.measures.box.size()), coarser.empty() ? " none" : coarser,
+                  asset.description, thumbnail.empty() ? "" : "  " + thumbnail));
 }
 
 Json list_json(const AssetDescription& asset, const fs::path& folder) {
@@ -129,8 +156,8 @@ Json list_json(const AssetDescription& asset, const fs::path& folder) {
   json["measures"].erase("principal_axes");
   json["measures"].erase("principal_size_m");
   const std::string thumbnail = thumbnail_of(folder);
-  json["folder"] = folder.string();
-  json["thumbnail"] = thumbnail.empty() ? Json() : Json(thumbnail);
+  json["folder"] = as_utf8(folder.string());
+  json["thumbnail"] = thumbnail.empty() ? Json() : Json(as_utf8(thumbnail));
   return json;
 }
 

@@ -31,7 +31,7 @@ struct ErrorArguments {
 /// The config at the width that is wished for, its shape kept.
 Result<PreparedCampaign> prepare_scene(const ErrorArguments& arguments, const std::string& config) {
   Result<CampaignSource> source =
-      read_source(config, arguments.set, seedframe_home(), arguments.allowed);
+      read_source(config, arguments.set, seedframe_home(), with_own_assets(arguments.allowed));
   if (!source) return forward_error(source);
   Result<PreparedCampaign> prepared = prepare(*source);
   if (!prepared || arguments.width == 0) return prepared;

@@ -69,8 +69,8 @@ Status check_colors(const CampaignSettings& settings, const std::string& blender
 }
 
 int check(const CheckArguments& arguments) {
-  Result<CampaignSource> source =
-      read_source(arguments.config, arguments.set, seedframe_home(), arguments.allowed);
+  Result<CampaignSource> source = read_source(arguments.config, arguments.set, seedframe_home(),
+                                              with_own_assets(arguments.allowed));
   if (!source) return report(source.error());
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (!prepared) return report(prepared.error());

@@ -18,6 +18,20 @@ bool is_below(const fs::path& file, const fs::path& folder) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
+fs::path environment_path(const char* name) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? text : "";
+}
+
+// seedframe/ in the folder that the environment names, or that is usual for it below the user's
+// home; empty if there is neither (XDG Base Directory Specification).
+fs::path users_folder(const char* variable, const char* below_home) {
+  const fs::path named = environment_path(variable);
+  if (named.is_absolute()) return named / "seedframe";
+  const fs::path home = environment_path("HOME");
+  return home.is_absolute() ? home / below_home / "seedframe" : fs::path();
+}
+
 bool is_home(const fs::path& folder) {
   std::error_code error;
   return fs::is_regular_file(folder / "blender_scripts/render_worker.py", error) &&
@@ -54,17 +68,15 @@ Result<fs::path> find_home() {
 fs::path seedframe_home() { return find_home().value_or(fs::path()); }
 
 fs::path cache_folder() {
-  const auto value = [](const char* name) {
-    const char* text = std::getenv(name);
-    return fs::path(text != nullptr ? text : "");
-  };
-  fs::path own = value("SEEDFRAME_CACHE");
+  fs::path own = environment_path("SEEDFRAME_CACHE");
   if (own == "off") return {};
   if (!own.empty()) return own;
-  const fs::path users = value("XDG_CACHE_HOME");
-  if (users.is_absolute()) return users / "seedframe";
-  const fs::path home = value("HOME");
-  return home.is_absolute() ? home / ".cache/seedframe" : fs::path();
+  return users_folder("XDG_CACHE_HOME", ".cache");
+}
+
+fs::path own_assets() {
+  const fs::path folder = users_folder("XDG_DATA_HOME", ".local/share");
+  return folder.empty() ? folder : folder / "assets";
 }
 
 fs::path worker_preload() {

@@ -21,6 +21,10 @@ std::filesystem::path seedframe_home();
 /// no home.
 std::filesystem::path cache_folder();
 
+/// The user's own asset library: seedframe/assets in XDG_DATA_HOME, or in ~/.local/share; empty if
+/// there is no home. It need not exist.
+std::filesystem::path own_assets();
+
 /// The library that is preloaded into workers (render/worker_conditions.h): beside the program, or
 /// in lib/seedframe of the place that it is installed in.
 std::filesystem::path worker_preload();

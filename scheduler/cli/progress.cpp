@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "base/message_text.h"
 #include "cli/say.h"
 
 namespace seedframe {
@@ -121,6 +122,41 @@ void Progress::goes_on(std::int64_t frames) {
 void Progress::finish() {
   if (line_open_) std::fputc('\n', stderr);
   line_open_ = false;
+}
+
+StepProgress::StepProgress(std::string what) : what_(std::move(what)) {
+  if (isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show_until_stopped(); });
+}
+
+StepProgress::~StepProgress() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+  }
+  stop_.notify_one();
+  thread_.join();
+}
+
+void StepProgress::begin(const std::string& step) {
+  const std::lock_guard lock(mutex_);
+  step_ = step;
+}
+
+void StepProgress::show_until_stopped() {
+  using std::chrono::milliseconds;
+  const auto start = Clock::now();
+  std::unique_lock lock(mutex_);
+  milliseconds wait(2000);
+  bool shown = false;
+  while (!stop_.wait_for(lock, wait, [this] { return stopped_; })) {
+    std::fprintf(stderr, "\r\033[K%s: %s, %s", printable(what_).c_str(), step_.c_str(),
+                 duration_text(seconds_between(start, Clock::now())).c_str());
+    std::fflush(stderr);
+    shown = true;
+    wait = milliseconds(200);
+  }
+  if (shown) std::fputs("\r\033[K", stderr);
 }
 
 }  // namespace seedframe

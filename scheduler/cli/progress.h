@@ -2,8 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "campaign/campaign_run.h"
 
@@ -37,6 +40,26 @@ class Progress : public RunObserver {
   std::chrono::steady_clock::time_point first_done_;
   std::chrono::steady_clock::time_point last_shown_;
   bool line_open_ = false;
+};
+
+/// What an import is doing, and for how long: a moving line on a terminal, from its third second
+/// on; nothing elsewhere.
+class StepProgress {
+ public:
+  explicit StepProgress(std::string what);
+  ~StepProgress();
+
+  void begin(const std::string& step);
+
+ private:
+  void show_until_stopped();
+
+  std::string what_;
+  std::mutex mutex_;
+  std::condition_variable stop_;
+  bool stopped_ = false;  // guarded by mutex_, as is step_
+  std::string step_;
+  std::thread thread_;  // only on a terminal
 };
 
 /// "1 h 02 min", "3 min 20 s", "12 s".

@@ -39,8 +39,8 @@ struct SubmitArguments {
 };
 
 Result<PreparedCampaign> prepare_submission(const SubmitArguments& arguments) {
-  Result<CampaignSource> source =
-      read_source(arguments.config, arguments.set, seedframe_home(), arguments.allowed);
+  Result<CampaignSource> source = read_source(arguments.config, arguments.set, seedframe_home(),
+                                              with_own_assets(arguments.allowed));
   if (!source) return forward_error(source);
   return prepare(std::move(*source));
 }

@@ -11,6 +11,7 @@
 
 #include "base/allowed_folders.h"
 #include "base/files.h"
+#include "base/utf8.h"
 #include "mesh_files/byte_reader.h"
 
 namespace seedframe {
@@ -81,6 +82,18 @@ std::optional<ComponentType> component_type(std::uint64_t code) {
   }
 }
 
+// Of any vendor: what materials, textures and lights look like does not matter to a mesh.
+bool is_harmless_extension(std::string_view name) {
+  if (name == "KHR_mesh_quantization") return true;
+  const std::size_t vendor = name.find('_');
+  if (vendor == std::string_view::npos) return false;
+  const std::string_view kind = name.substr(vendor + 1);
+  constexpr std::string_view kKinds[] = {"materials", "texture", "lights", "animation",
+                                         "audio",     "xmp",     "image"};
+  return std::any_of(std::begin(kKinds), std::end(kKinds),
+                     [kind](std::string_view harmless) { return kind.starts_with(harmless); });
+}
+
 std::string_view type_name(std::uint64_t components) {
   return components == 1 ? "SCALAR" : components == 2 ? "VEC2" : "VEC3";
 }
@@ -136,7 +149,8 @@ Status GltfFile::split_container(std::string_view bytes) {
     }
     if (has_chunk_) chunk_ = rest.substr(0, *chunk_length);
   }
-  auto json = parse_json(text, name_);
+  // In Latin-1, by the standard never, a name is no reason to refuse a mesh.
+  auto json = is_utf8(text) ? parse_json(text, name_) : parse_json(as_utf8(text), name_);
   if (!json) return fail(ErrorKind::kInput, "{}", json.error().message);
   json_ = std::make_unique<const Json>(std::move(*json));
   return {};
@@ -153,11 +167,7 @@ Status GltfFile::check_head() const {
   const Json required = json_->value("extensionsRequired", Json::array());
   for (const Json& extension : required) {
     const std::string needed = extension.is_string() ? extension.get<std::string>() : "";
-    // What materials, textures and lights look like does not matter to a mesh.
-    const bool harmless = needed == "KHR_mesh_quantization" || needed == "KHR_lights_punctual" ||
-                          needed.starts_with("KHR_materials_") ||
-                          needed.starts_with("KHR_texture_") || needed.starts_with("EXT_texture_");
-    if (!harmless) {
+    if (!is_harmless_extension(needed)) {
       return fail_at("extensionsRequired",
                      "'{}' cannot be read: export the file without compression and extensions",
                      needed);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message_text.h"
 #include "mesh_files/gltf_file.h"
 #include "mesh_files/mesh_builder.h"
 #include "mesh_files/position_welder.h"
@@ -83,7 +84,7 @@ class GltfParser {
  public:
   explicit GltfParser(const GltfFile& file) : file_(file), builder_(file.name()) {}
 
-  Result<Mesh> parse() {
+  Result<FileMesh> parse() {
     auto waiting = roots();
     if (!waiting) return forward_error(waiting);
     const Json nodes = file_.json().value("nodes", Json::array());
@@ -98,6 +99,7 @@ class GltfParser {
       if (placed.node < seen.size()) seen[placed.node] = true;
       if (Status status = visit(placed, *waiting); !status) return forward_error(status);
     }
+    list_what_is_not_kept();
     return builder_.finish("a scene with meshes of triangles");
   }
 
@@ -160,6 +162,7 @@ class GltfParser {
     if (!mesh) return forward_error(mesh);
     const Json primitives = (*mesh)->value("primitives", Json::array());
     PositionWelder welder(builder_);
+    if ((*node)->contains("skin")) builder_.not_kept("skins");
     for (const Json& primitive : primitives) {
       Status added = add_primitive(primitive, world, welder, fmt::format("meshes[{}]", *number));
       if (!added) return added;
@@ -171,7 +174,10 @@ class GltfParser {
                        const std::string& place) {
     const auto mode = gltf_index(primitive, "mode", kTriangles);
     if (!mode || *mode > kTriangleFan) return file_.fail_at(place, "'mode' must be 0 to 6");
-    if (*mode < kTriangles) return {};  // points and lines
+    if (*mode < kTriangles) {
+      builder_.not_kept("points and lines");
+      return {};
+    }
     const Json attributes = primitive.value("attributes", Json());
     const auto position_index = gltf_index(attributes, "POSITION");
     if (!position_index) return file_.fail_at(place, "a primitive needs the attribute POSITION");
@@ -183,10 +189,11 @@ class GltfParser {
       return file_.fail_at(place, "more than {} vertices", 3 * kMostImportedTriangles);
     }
     auto corners = corners_of(*positions, world, welder);
-    if (Status status = add_uvs(attributes, corners, place); !status) return status;
+    add_uvs(attributes, corners, place);
+    list_what_is_not_kept(primitive, attributes);
     auto order = corner_order(primitive, corners.size(), place);
     if (!order) return forward_error(order);
-    if (Status status = use_material(primitive, place); !status) return status;
+    use_material(primitive, place);
     const bool mirrored = world.linear().determinant() < 0.0;
     for (auto& [a, b, c] : triangles_of(*mode, order->size())) {
       std::array<PolygonCorner, 3> triangle{corners[(*order)[a]], corners[(*order)[b]],
@@ -197,35 +204,61 @@ class GltfParser {
     return {};
   }
 
-  static std::vector<PolygonCorner> corners_of(const GltfFile::Numbers& positions,
-                                               const Eigen::Affine3d& world,
-                                               PositionWelder& welder) {
+  std::vector<PolygonCorner> corners_of(const GltfFile::Numbers& positions,
+                                        const Eigen::Affine3d& world, PositionWelder& welder) {
+    const double scale = std::cbrt(std::abs(world.linear().determinant()));
     std::vector<PolygonCorner> corners;
     corners.reserve(positions.count);
     for (std::uint64_t i = 0; i < positions.count; ++i) {
       const double* p = positions.values.data() + 3 * i;
-      const Eigen::Vector3f moved = (world * Eigen::Vector3d(p[0], p[1], p[2])).cast<float>();
+      const Eigen::Vector3d at(p[0], p[1], p[2]);
+      builder_.stored_as(static_cast<float>(scale * at.cwiseAbs().maxCoeff()));
+      const Eigen::Vector3d moved = world * at;
       corners.push_back({.position = welder.index_of({moved.x(), moved.y(), moved.z()})});
     }
     return corners;
   }
 
   // glTF's v points down the image.
-  Status add_uvs(const Json& attributes, std::vector<PolygonCorner>& corners,
-                 const std::string& place) {
-    if (!attributes.contains("TEXCOORD_0")) return {};
+  void add_uvs(const Json& attributes, std::vector<PolygonCorner>& corners,
+               const std::string& place) {
+    if (!attributes.contains("TEXCOORD_0")) return;
     const auto index = gltf_index(attributes, "TEXCOORD_0");
-    if (!index) return file_.fail_at(place, "TEXCOORD_0 must be the number of an accessor");
-    const auto uvs = file_.read_accessor(*index, 2);
-    if (!uvs) return forward_error(uvs);
-    if (uvs->count != corners.size()) {
-      return file_.fail_at(place, "{} positions, but {} UVs", corners.size(), uvs->count);
+    const auto uvs = index ? file_.read_accessor(*index, 2) : Result<GltfFile::Numbers>();
+    if (!index || !uvs || uvs->count != corners.size()) {
+      const std::string why = !index ? "not the number of an accessor"
+                              : !uvs
+                                  ? uvs.error().message
+                                  : fmt::format("{} for {} positions", uvs->count, corners.size());
+      builder_.drop(fmt::format("UVs (TEXCOORD_0) that cannot be read are left out ({})", why),
+                    place);
+      return;
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      corners[i].uv = builder_.add_uv({static_cast<float>(uvs->values[2 * i]),
-                                       static_cast<float>(1.0 - uvs->values[2 * i + 1])});
+      corners[i].uv = builder_.add_uv({uvs->values[2 * i], 1.0 - uvs->values[2 * i + 1]}, place);
     }
-    return {};
+  }
+
+  void list_what_is_not_kept(const Json& primitive, const Json& attributes) {
+    if (attributes.contains("NORMAL")) builder_.not_kept(kNormals);
+    if (attributes.contains("COLOR_0")) builder_.not_kept("vertex colours");
+    if (attributes.contains("TEXCOORD_1")) builder_.not_kept("UV sets beyond the first");
+    if (primitive.contains("targets")) builder_.not_kept("morph targets");
+  }
+
+  // Of the whole file.
+  void list_what_is_not_kept() {
+    if (file_.json().contains("animations")) builder_.not_kept("animations");
+    if (file_.json().contains("cameras")) builder_.not_kept("cameras");
+    const Json images = file_.json().value("images", Json::array());
+    for (const Json& image : images) {
+      const Json name =
+          image.is_object() ? image.value("uri", image.value("name", Json())) : Json();
+      const bool named = name.is_string() && !name.get<std::string>().starts_with("data:");
+      builder_.not_kept(named
+                            ? fmt::format("the image '{}'", shortened(name.get<std::string>(), 200))
+                            : std::string("images in the file"));
+    }
   }
 
   Result<std::vector<std::uint64_t>> corner_order(const Json& primitive, std::uint64_t corners,
@@ -250,19 +283,23 @@ class GltfParser {
     return order;
   }
 
-  Status use_material(const Json& primitive, const std::string& place) {
-    if (!primitive.contains("material")) {
-      builder_.use_slot("default");
-      return {};
-    }
+  void use_material(const Json& primitive, const std::string& place) {
     const auto index = gltf_index(primitive, "material");
-    if (!index) return file_.fail_at(place, "'material' must be the number of a material");
+    if (!index) {
+      if (primitive.contains("material")) {
+        builder_.drop("materials that are not the number of one are 'default'", place);
+      }
+      builder_.use_slot("default");
+      return;
+    }
     const auto material = file_.entry("materials", *index);
-    if (!material) return forward_error(material);
-    const Json name = (*material)->value("name", Json());
+    if (!material) builder_.drop("materials that are not in the file have a number only", place);
+    const Json name = material ? (*material)->value("name", Json()) : Json();
     const bool named = name.is_string() && !name.get<std::string>().empty();
+    if (material && (*material)->size() > (*material)->count("name")) {
+      builder_.not_kept("materials (colours, roughness and the like)");
+    }
     builder_.use_slot(named ? name.get<std::string>() : fmt::format("material{}", *index));
-    return {};
   }
 
   const GltfFile& file_;
@@ -272,7 +309,7 @@ class GltfParser {
 
 }  // namespace
 
-Result<Mesh> read_gltf(const std::filesystem::path& path) {
+Result<FileMesh> read_gltf(const std::filesystem::path& path) {
   try {
     const auto file = GltfFile::open(path);
     if (!file) return forward_error(file);

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "mesh/mesh.h"
+#include "mesh_files/file_mesh.h"
 
 namespace seedframe {
 
@@ -12,6 +12,6 @@ namespace seedframe {
 /// in metres, **y up as in the file**. A slot for each material; "default" where a primitive has
 /// none. The corners of one node that lie at the same place become one vertex. Skins, morph targets
 /// and animations are not applied; points and lines are skipped; images are not opened.
-Result<Mesh> read_gltf(const std::filesystem::path& path);
+Result<FileMesh> read_gltf(const std::filesystem::path& path);
 
 }  // namespace seedframe

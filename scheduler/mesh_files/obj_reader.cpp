@@ -2,12 +2,15 @@
 // vertex as a warning and drops usemtl names when the .mtl file is missing.
 #include "mesh_files/obj_reader.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/files.h"
+#include "base/message_text.h"
 #include "mesh_files/mesh_builder.h"
 #include "mesh_files/text_scanner.h"
 
@@ -18,7 +21,7 @@ class ObjParser {
  public:
   explicit ObjParser(const std::string& file) : builder_(file) {}
 
-  Result<Mesh> parse(const std::string& text) {
+  Result<FileMesh> parse(const std::string& text) {
     std::string_view rest = without_byte_order_mark(text);
     std::string line;
     while (!rest.empty()) {
@@ -44,15 +47,47 @@ class ObjParser {
   }
 
   Status parse_line(std::string_view line) {
-    line = trimmed(line.substr(0, line.find('#')));
+    // Of each file, where several were joined.
+    line = trimmed(without_byte_order_mark(line.substr(0, line.find('#'))));
     const std::string_view keyword = take_word(line);
     if (keyword == "v") return parse_position(line);
     if (keyword == "vt") return parse_uv(line);
     if (keyword == "f") return parse_face(line);
-    if (keyword == "usemtl") builder_.use_slot(trimmed(line));
-    // Everything else (normals, groups, names, .mtl files, lines, curves) makes no triangles.
+    if (keyword == "usemtl") {
+      builder_.use_slot(trimmed(line));
+    } else {
+      pass_over(keyword, trimmed(line));
+    }
     return {};
   }
+
+  // What makes no triangles.
+  void pass_over(std::string_view keyword, std::string_view rest) {
+    const auto is_one_of = [keyword](std::initializer_list<std::string_view> words) {
+      return std::find(words.begin(), words.end(), keyword) != words.end();
+    };
+    if (is_one_of({"", "o", "g", "s", "mg", "bevel", "c_interp", "d_interp", "lod", "maplib"})) {
+      return;
+    }
+    if (keyword == "vn") {
+      builder_.not_kept(kNormals);
+    } else if (keyword == "mtllib") {
+      builder_.not_kept(fmt::format("materials and images of '{}'", shortened(rest, 200)));
+    } else if (keyword == "usemap") {
+      builder_.not_kept("images ('usemap')");
+    } else if (is_one_of({"p", "l"})) {
+      builder_.not_kept("points and lines");
+    } else if (is_one_of({"vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm",
+                          "trim", "hole", "scrv", "sp", "end", "con", "ctech", "stech"})) {
+      builder_.not_kept("free-form curves and surfaces");
+    } else if (is_one_of({"shadow_obj", "trace_obj", "call", "csh"})) {
+      builder_.not_kept("other files that it names");
+    } else {
+      builder_.drop("lines that begin with an unknown word are skipped", place());
+    }
+  }
+
+  std::string place() const { return fmt::format("line {}", line_number_); }
 
   template <class... Args>
   tl::unexpected<Error> fail_here(fmt::format_string<Args...> format, Args&&... args) const {
@@ -60,39 +95,34 @@ class ObjParser {
                             fmt::format(format, std::forward<Args>(args)...));
   }
 
-  // `least` numbers or more, of which the first `used` must be finite.
-  Result<std::vector<float>> parse_floats(std::string_view line, std::size_t least,
-                                          std::size_t used) const {
-    std::vector<float> values;
+  Status parse_position(std::string_view line) {
+    std::array<double, 3> position{};
+    std::size_t found = 0;
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
+      if (found++ >= position.size()) continue;  // a weight or a colour may follow
       const auto value = parse_number<double>(word);
-      const bool wanted = values.size() < used;
-      if (!value || (wanted && !std::isfinite(static_cast<float>(*value)))) {
+      if (!value || !std::isfinite(static_cast<float>(*value))) {
         return fail_here("expected a finite number, found '{}'", word);
       }
-      values.push_back(static_cast<float>(*value));
+      position[found - 1] = *value;
     }
-    if (values.size() < least) {
-      return fail_here("expected at least {} numbers, found {}", least, values.size());
+    if (found < position.size()) {
+      return fail_here("expected at least {} numbers, found {}", position.size(), found);
     }
-    return values;
-  }
-
-  Status parse_position(std::string_view line) {
-    const auto values = parse_floats(line, 3, 3);  // a weight or a colour may follow
-    if (!values) return forward_error(values);
-    builder_.add_position({(*values)[0], (*values)[1], (*values)[2]});
+    if (found >= 6) builder_.not_kept("vertex colours");
+    builder_.add_position(position);
     return {};
   }
 
+  // Numbers that are missing behind the first are 0.
   Status parse_uv(std::string_view line) {
-    if (line_without_uvs_ > 0) {
-      return fail_here("texture coordinates must stand above the polygons that name them (line {})",
-                       line_without_uvs_);
+    std::array<double, 2> uv{};
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+      const std::string_view word = take_word(line);
+      if (word.empty() && i > 0) break;
+      uv[i] = parse_number<double>(word).value_or(std::numeric_limits<double>::quiet_NaN());
     }
-    const auto values = parse_floats(line, 1, 2);
-    if (!values) return forward_error(values);
-    builder_.add_uv({(*values)[0], values->size() > 1 ? (*values)[1] : 0.0f});
+    builder_.add_uv(uv, place());
     return {};
   }
 
@@ -123,14 +153,16 @@ class ObjParser {
     word.remove_prefix(slash + 1);
     word = word.substr(0, word.find('/'));
     if (word.empty()) return corner;
-    // Some programs number UVs that they do not write.
-    if (builder_.uv_count() == 0 && parse_number<std::int64_t>(word)) {
-      line_without_uvs_ = line_number_;
-      return corner;
-    }
     const auto uv = parse_index(word, builder_.uv_count(), "texture coordinate");
-    if (!uv) return forward_error(uv);
-    corner.uv = *uv;
+    if (uv) {
+      corner.uv = *uv;
+    } else if (parse_number<std::int64_t>(
+                   word)) {  // some programs number UVs that they don't write
+      builder_.drop("corners whose texture coordinates do not stand above them have UV (0, 0)",
+                    place());
+    } else {
+      return forward_error(uv);
+    }
     return corner;
   }
 
@@ -146,14 +178,13 @@ class ObjParser {
 
   std::size_t line_number_ = 0;
   std::size_t next_line_number_ = 1;
-  std::size_t line_without_uvs_ = 0;  // the last that names a UV where the file has none; 0: none
   std::vector<PolygonCorner> corners_;
   MeshBuilder builder_;
 };
 
 }  // namespace
 
-Result<Mesh> read_obj(const std::filesystem::path& path) {
+Result<FileMesh> read_obj(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return forward_error(text);
   return ObjParser(path.string()).parse(*text);

@@ -4,15 +4,13 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "mesh/mesh.h"
+#include "mesh_files/file_mesh.h"
 
 namespace seedframe {
 
 /// All objects and groups of the file as one mesh: polygons triangulated, a slot for each usemtl
-/// name in the order of first use ("default" without any), UV (0, 0) where a corner has
-/// none, or the file has none at all.
-/// Coordinates are taken as they stand, z up. Materials of .mtl files are not read.
-/// smooth_angle_rad is 0.
-Result<Mesh> read_obj(const std::filesystem::path& path);
+/// name in the order of first use ("default" without any), UV (0, 0) where a corner has none, or
+/// names one that is not there. Materials of .mtl files are not read.
+Result<FileMesh> read_obj(const std::filesystem::path& path);
 
 }  // namespace seedframe

@@ -2,6 +2,7 @@
 #include "mesh_files/off_reader.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -16,7 +17,7 @@ class OffParser {
  public:
   OffParser(const std::string& file, std::string_view text) : builder_(file), rest_(text) {}
 
-  Result<Mesh> parse() {
+  Result<FileMesh> parse() {
     for (const auto part :
          {&OffParser::parse_header, &OffParser::parse_vertices, &OffParser::parse_faces}) {
       if (Status status = (this->*part)(); !status) return forward_error(status);
@@ -47,7 +48,10 @@ class OffParser {
     std::string_view kind = take_word(line_);
     has_uvs_ = kind.starts_with("ST");
     if (has_uvs_) kind.remove_prefix(2);
-    while (kind.starts_with('C') || kind.starts_with('N')) kind.remove_prefix(1);
+    while (kind.starts_with('C') || kind.starts_with('N')) {
+      builder_.not_kept(kind.starts_with('C') ? "vertex colours" : kNormals);
+      kind.remove_prefix(1);
+    }
     if (kind != "OFF" || trimmed(line_).starts_with("BINARY")) {
       return fail_here("expected 'OFF', 'COFF', 'NOFF' or 'STOFF' as text, found '{}'",
                        kind.substr(0, 40));
@@ -72,17 +76,20 @@ class OffParser {
       while (!trimmed(line_).empty()) {
         const std::string_view word = take_word(line_);
         const auto number = parse_number<double>(word);
-        if (!number || !std::isfinite(static_cast<float>(*number))) {
+        const bool is_coordinate = numbers_.size() < 3;  // colours, normals and UVs follow
+        if (is_coordinate && (!number || !std::isfinite(static_cast<float>(*number)))) {
           return fail_here("expected a finite number, found '{}'", word.substr(0, 40));
         }
-        numbers_.push_back(static_cast<float>(*number));
+        numbers_.push_back(number.value_or(std::numeric_limits<double>::quiet_NaN()));
       }
       const std::size_t least = has_uvs_ ? 5 : 3;
       if (numbers_.size() < least) {
         return fail_here("expected at least {} numbers, found {}", least, numbers_.size());
       }
       builder_.add_position({numbers_[0], numbers_[1], numbers_[2]});
-      if (has_uvs_) builder_.add_uv({numbers_[numbers_.size() - 2], numbers_.back()});
+      if (!has_uvs_) continue;
+      builder_.add_uv({numbers_[numbers_.size() - 2], numbers_.back()},
+                      fmt::format("line {}", line_number_));
     }
     return {};
   }
@@ -116,12 +123,12 @@ class OffParser {
   bool has_uvs_ = false;
   std::uint32_t vertex_count_ = 0;
   std::uint32_t face_count_ = 0;
-  std::vector<float> numbers_;
+  std::vector<double> numbers_;
 };
 
 }  // namespace
 
-Result<Mesh> read_off(const std::filesystem::path& path) {
+Result<FileMesh> read_off(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return forward_error(text);
   return OffParser(path.string(), without_byte_order_mark(*text)).parse();

@@ -54,6 +54,9 @@ std::string parse_line(std::string_view line, PlyHeader& header, bool& has_forma
   constexpr std::size_t kMostElements = 64;
   constexpr std::size_t kMostProperties = 256;
   const std::string_view keyword = take_word(line);
+  if (keyword == "comment" && take_word(line) == "TextureFile") {
+    header.images.emplace_back(trimmed(line));
+  }
   if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return {};
   if (keyword == "format") {
     const auto format = parse_format(take_word(line));
@@ -113,6 +116,7 @@ int PlyElement::find(const std::vector<std::string_view>& names) const {
 Result<PlyHeader> take_ply_header(std::string_view& rest, const std::string& file) {
   PlyHeader header;
   header.lines = 1;
+  rest = without_byte_order_mark(rest);
   if (trimmed(take_line(rest)) != "ply") {
     return fail(ErrorKind::kInput, "{}:1: expected 'ply' on a line of its own", file);
   }

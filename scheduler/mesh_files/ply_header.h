@@ -34,7 +34,8 @@ struct PlyHeader {
   enum class Format { kText, kLittleEndian, kBigEndian };
   Format format = Format::kText;
   std::vector<PlyElement> elements;
-  std::size_t lines = 0;  ///< of the header
+  std::size_t lines = 0;            ///< of the header
+  std::vector<std::string> images;  ///< named by comments "TextureFile NAME"
 };
 
 /// Takes the header off the front of `rest`. Errors (kInput) name the file and the line.

@@ -3,11 +3,13 @@
 #include "mesh_files/ply_reader.h"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "base/files.h"
+#include "base/message_text.h"
 #include "mesh_files/byte_reader.h"
 #include "mesh_files/mesh_builder.h"
 #include "mesh_files/ply_header.h"
@@ -52,11 +54,14 @@ class PlyParser {
  public:
   explicit PlyParser(const std::string& file) : file_(file), builder_(file) {}
 
-  Result<Mesh> parse(std::string_view bytes) {
+  Result<FileMesh> parse(std::string_view bytes) {
     rest_ = bytes;
     auto header = take_ply_header(rest_, file_);
     if (!header) return forward_error(header);
     format_ = header->format;
+    for (const std::string& image : header->images) {
+      builder_.not_kept(fmt::format("the image '{}'", shortened(image, 200)));
+    }
     for (const PlyElement& element : header->elements) {
       if (Status status = parse_element(element); !status) return forward_error(status);
     }
@@ -85,11 +90,16 @@ class PlyParser {
   }
 
   Status find_properties(const PlyElement& element) {
+    list_what_is_not_kept(element);
     if (element.name == "vertex") {
       if (builder_.position_count() > 0) {
         return builder_.fail_at("", "a second element 'vertex': expected one");
       }
       position_ = {element.find({"x"}), element.find({"y"}), element.find({"z"})};
+      floats_ =
+          position_[0] >= 0 &&
+          element.properties[static_cast<std::size_t>(position_[0])].type == PlyType::kFloat32 &&
+          format_ != PlyHeader::Format::kText;
       uv_ = {element.find({"s", "u", "texture_u"}), element.find({"t", "v", "texture_v"})};
       if (position_[0] < 0 || position_[1] < 0 || position_[2] < 0) {
         return builder_.fail_at("", "vertices need the properties x, y and z");
@@ -106,6 +116,19 @@ class PlyParser {
     return {};
   }
 
+  void list_what_is_not_kept(const PlyElement& element) {
+    if (element.name != "vertex" && element.name != "face") {
+      if (element.count > 0) builder_.not_kept(fmt::format("the element '{}'", element.name));
+      return;
+    }
+    const bool of_vertices = element.name == "vertex";
+    if (element.find({"red", "r", "diffuse_red"}) >= 0) {
+      builder_.not_kept(of_vertices ? "vertex colours" : "colours of faces");
+    }
+    if (of_vertices && element.find({"nx"}) >= 0) builder_.not_kept(kNormals);
+  }
+
+  // Nothing where there is no number.
   std::optional<double> take_number(PlyType type) {
     if (format_ != PlyHeader::Format::kText) {
       return take_binary(rest_, type, format_ == PlyHeader::Format::kBigEndian);
@@ -116,9 +139,11 @@ class PlyParser {
     }
     std::size_t length = 0;
     while (length < rest_.size() && !is_space(rest_[length]) && rest_[length] != '\n') ++length;
+    if (length == 0) return std::nullopt;
     const auto number = parse_number<double>(rest_.substr(0, length));
     rest_.remove_prefix(length);
-    return number;
+    // Colours and the like may be written in any way; who needs the number refuses this one.
+    return number.value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
   // False at the end of the file and where there is no number. Long lists cost as many bytes as
@@ -128,7 +153,9 @@ class PlyParser {
     double count = 1.0;
     if (property.is_list) {
       const auto claimed = take_number(property.count_type);
-      if (!claimed || *claimed < 0.0 || *claimed > static_cast<double>(rest_.size())) return false;
+      const bool usable =
+          claimed && *claimed >= 0.0 && *claimed <= static_cast<double>(rest_.size());
+      if (!usable) return false;
       count = *claimed;
     }
     for (double i = 0.0; i < count; ++i) {
@@ -139,27 +166,27 @@ class PlyParser {
     return true;
   }
 
-  static std::optional<float> coordinate(const std::vector<Values>& row, int property) {
+  // NaN where there is not one number, or one that no float can hold.
+  static double number_at(const std::vector<Values>& row, int property) {
     const Values& values = row[static_cast<std::size_t>(property)];
-    if (values.size() != 1 || !(std::abs(values[0]) <= std::numeric_limits<float>::max())) {
-      return std::nullopt;
-    }
-    return static_cast<float>(values[0]);
+    const bool usable =
+        values.size() == 1 && std::abs(values[0]) <= std::numeric_limits<float>::max();
+    return usable ? values[0] : std::numeric_limits<double>::quiet_NaN();
   }
 
   Status add_vertex(const std::vector<Values>& row, const std::string& place) {
-    std::array<float, 3> position{};
+    std::array<double, 3> position{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto value = coordinate(row, position_[axis]);
-      if (!value) return builder_.fail_at(place, "expected a finite coordinate");
-      position[axis] = *value;
+      position[axis] = number_at(row, position_[axis]);
+      if (std::isnan(position[axis])) {
+        return builder_.fail_at(place, "expected a finite coordinate");
+      }
+      if (floats_) builder_.stored_as(static_cast<float>(position[axis]));
     }
     builder_.add_position(position);
-    if (uv_[0] < 0 || uv_[1] < 0) return {};
-    const auto u = coordinate(row, uv_[0]);
-    const auto v = coordinate(row, uv_[1]);
-    if (!u || !v) return builder_.fail_at(place, "expected a finite UV");
-    builder_.add_uv({*u, *v});
+    if (uv_[0] >= 0 && uv_[1] >= 0) {
+      builder_.add_uv({number_at(row, uv_[0]), number_at(row, uv_[1])}, place);
+    }
     return {};
   }
 
@@ -177,38 +204,38 @@ class PlyParser {
       const auto position = static_cast<std::uint32_t>(index);
       corners.push_back({position, vertex_uvs ? position : PolygonCorner::kNone});
     }
-    if (Status status = add_face_uvs(row, corners, place); !status) return status;
+    add_face_uvs(row, corners, place);
     if (slot_ >= 0) {
-      const Values& slot = row[static_cast<std::size_t>(slot_)];
-      if (slot.size() != 1 || !(std::abs(slot[0]) < static_cast<double>(kMostImportedSlots))) {
-        return builder_.fail_at(place, "expected the number of a material");
+      double slot = number_at(row, slot_);
+      if (!(std::abs(slot) < static_cast<double>(kMostImportedSlots))) {
+        builder_.drop("faces whose material is no number have material 0", place);
+        slot = 0.0;
       }
-      builder_.use_slot(fmt::format("material{}", static_cast<int>(std::max(0.0, slot[0]))));
+      builder_.use_slot(fmt::format("material{}", static_cast<int>(std::max(0.0, slot))));
     }
     return builder_.add_polygon(corners, place);
   }
 
   // UVs of the face's own corners win over those of its vertices.
-  Status add_face_uvs(const std::vector<Values>& row, std::vector<PolygonCorner>& corners,
-                      const std::string& place) {
-    if (face_uvs_ < 0) return {};
+  void add_face_uvs(const std::vector<Values>& row, std::vector<PolygonCorner>& corners,
+                    const std::string& place) {
+    if (face_uvs_ < 0) return;
     const Values& uvs = row[static_cast<std::size_t>(face_uvs_)];
-    if (uvs.empty()) return {};  // a face without a texture
+    if (uvs.empty()) return;  // a face without a texture
     if (uvs.size() != 2 * corners.size()) {
-      return builder_.fail_at(place, "{} corners need {} numbers in texcoord, found {}",
-                              corners.size(), 2 * corners.size(), uvs.size());
+      builder_.drop("faces whose texcoord has not two numbers a corner have none of it", place);
+      return;
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      corners[i].uv =
-          builder_.add_uv({static_cast<float>(uvs[2 * i]), static_cast<float>(uvs[2 * i + 1])});
+      corners[i].uv = builder_.add_uv({uvs[2 * i], uvs[2 * i + 1]}, place);
     }
-    return {};
   }
 
   std::string file_;
   MeshBuilder builder_;
   std::string_view rest_;
   PlyHeader::Format format_ = PlyHeader::Format::kText;
+  bool floats_ = false;                      // coordinates are stored as 32-bit floats
   std::array<int, 3> position_{-1, -1, -1};  // places of properties in a row
   std::array<int, 2> uv_{-1, -1};
   int corners_ = -1;
@@ -218,7 +245,7 @@ class PlyParser {
 
 }  // namespace
 
-Result<Mesh> read_ply(const std::filesystem::path& path) {
+Result<FileMesh> read_ply(const std::filesystem::path& path) {
   const auto bytes = read_file(path);
   if (!bytes) return forward_error(bytes);
   return PlyParser(path.string()).parse(*bytes);

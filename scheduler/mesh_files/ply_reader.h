@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "mesh/mesh.h"
+#include "mesh_files/file_mesh.h"
 
 namespace seedframe {
 
@@ -12,6 +12,6 @@ namespace seedframe {
 /// (vertex_indices or vertex_index; texcoord, two numbers a corner; material_index or texnumber,
 /// which become the slots "material0", "material1", …); others are skipped. Coordinates are taken
 /// as they stand.
-Result<Mesh> read_ply(const std::filesystem::path& path);
+Result<FileMesh> read_ply(const std::filesystem::path& path);
 
 }  // namespace seedframe

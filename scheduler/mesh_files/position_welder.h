@@ -17,8 +17,8 @@ class PositionWelder {
   explicit PositionWelder(MeshBuilder& builder) : builder_(builder) {}
 
   /// The index of this position in the builder.
-  std::uint32_t index_of(std::array<float, 3> position) {
-    for (float& value : position) value += 0.0f;  // -0 becomes 0
+  std::uint32_t index_of(std::array<double, 3> position) {
+    for (double& value : position) value += 0.0;  // -0 becomes 0
     const auto [entry, is_new] = known_.try_emplace(position, 0);
     if (is_new) entry->second = builder_.add_position(position);
     return entry->second;
@@ -26,10 +26,10 @@ class PositionWelder {
 
  private:
   struct Hash {
-    std::size_t operator()(const std::array<float, 3>& p) const {
+    std::size_t operator()(const std::array<double, 3>& p) const {
       std::uint64_t hash = 0;
-      for (const float value : p) {
-        hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9e3779b97f4a7c15u;
+      for (const double value : p) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 29;
       }
       return hash;
@@ -37,14 +37,14 @@ class PositionWelder {
   };
   // By bits, so that a NaN equals itself; check_mesh refuses it later.
   struct Same {
-    bool operator()(const std::array<float, 3>& a, const std::array<float, 3>& b) const {
-      return std::bit_cast<std::array<std::uint32_t, 3>>(a) ==
-             std::bit_cast<std::array<std::uint32_t, 3>>(b);
+    bool operator()(const std::array<double, 3>& a, const std::array<double, 3>& b) const {
+      return std::bit_cast<std::array<std::uint64_t, 3>>(a) ==
+             std::bit_cast<std::array<std::uint64_t, 3>>(b);
     }
   };
 
   MeshBuilder& builder_;
-  std::unordered_map<std::array<float, 3>, std::uint32_t, Hash, Same> known_;
+  std::unordered_map<std::array<double, 3>, std::uint32_t, Hash, Same> known_;
 };
 
 }  // namespace seedframe

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kBinaryHeaderBytes = 84;  // 80 of text and the number of triangles
 constexpr std::size_t kTriangleBytes = 50;
 
-Result<Mesh> read_binary(std::string_view bytes, const std::string& file) {
+Result<FileMesh> read_binary(std::string_view bytes, const std::string& file) {
   MeshBuilder builder(file);
   const auto count = value_from<std::uint32_t>(bytes.substr(80));
   const std::size_t expected = kBinaryHeaderBytes + kTriangleBytes * std::size_t{count};
@@ -36,9 +36,16 @@ Result<Mesh> read_binary(std::string_view bytes, const std::string& file) {
     std::string_view rest = bytes.substr(kBinaryHeaderBytes + t * kTriangleBytes + 12, 36);
     std::array<PolygonCorner, 3> triangle;
     for (PolygonCorner& corner : triangle) {
-      std::array<float, 3> position{};
-      for (float& value : position) value = *take_value<float>(rest);
+      std::array<double, 3> position{};
+      for (double& value : position) {
+        const float stored = *take_value<float>(rest);
+        builder.stored_as(stored);
+        value = stored;
+      }
       corner.position = welder.index_of(position);
+    }
+    if (bytes[kBinaryHeaderBytes + t * kTriangleBytes + 49] < 0) {
+      builder.not_kept("colours of triangles");
     }
     if (Status status = builder.add_polygon(triangle, fmt::format("triangle {}", t)); !status) {
       return forward_error(status);
@@ -47,12 +54,12 @@ Result<Mesh> read_binary(std::string_view bytes, const std::string& file) {
   return builder.finish("one triangle or more");
 }
 
-std::optional<std::array<float, 3>> parse_vertex(std::string_view words) {
-  std::array<float, 3> position{};
-  for (float& value : position) {
+std::optional<std::array<double, 3>> parse_vertex(std::string_view words) {
+  std::array<double, 3> position{};
+  for (double& value : position) {
     const auto number = parse_number<double>(take_word(words));
     if (!number || !std::isfinite(static_cast<float>(*number))) return std::nullopt;
-    value = static_cast<float>(*number);
+    value = *number;
   }
   if (!trimmed(words).empty()) return std::nullopt;
   return position;
@@ -62,7 +69,7 @@ class TextParser {
  public:
   explicit TextParser(const std::string& file) : builder_(file), welder_(builder_) {}
 
-  Result<Mesh> parse(std::string_view text) {
+  Result<FileMesh> parse(std::string_view text) {
     while (!text.empty()) {
       ++line_number_;
       if (Status status = parse_line(trimmed(take_line(text))); !status) {
@@ -80,12 +87,13 @@ class TextParser {
   Status parse_line(std::string_view line) {
     std::string_view words = line;
     const std::string_view keyword = take_word(words);
-    if (keyword == "vertex") return parse_corner(words);
-    if (keyword == "endloop") return end_loop();
-    if (keyword == "solid") ended_ = false;
-    if (keyword == "endsolid") ended_ = true;
-    const bool known = keyword.empty() || keyword == "solid" || keyword == "endsolid" ||
-                       keyword == "facet" || keyword == "outer" || keyword == "endfacet";
+    const auto is = [keyword](std::string_view word) { return equals_in_any_case(keyword, word); };
+    if (is("vertex")) return parse_corner(words);
+    if (is("endloop")) return end_loop();
+    if (is("solid")) ended_ = false;
+    if (is("endsolid")) ended_ = true;
+    const bool known = keyword.empty() || is("solid") || is("endsolid") || is("facet") ||
+                       is("outer") || is("endfacet");
     if (known) return {};
     return builder_.fail_at(std::to_string(line_number_),
                             "expected 'facet', 'vertex' or another word of STL, found '{}'",
@@ -115,24 +123,28 @@ class TextParser {
   bool ended_ = false;
 };
 
+bool has_binary_length(std::string_view bytes) {
+  if (bytes.size() < kBinaryHeaderBytes) return false;
+  const auto count = value_from<std::uint32_t>(bytes.substr(80));
+  return bytes.size() == kBinaryHeaderBytes + kTriangleBytes * std::size_t{count};
+}
+
 // Binary files, too, may begin with "solid": what decides is whether the length fits the count.
 bool is_text(std::string_view bytes) {
-  if (bytes.size() >= kBinaryHeaderBytes) {
-    const auto count = value_from<std::uint32_t>(bytes.substr(80));
-    if (bytes.size() == kBinaryHeaderBytes + kTriangleBytes * std::size_t{count}) return false;
-  }
+  if (has_binary_length(bytes)) return false;
   std::string_view start = without_byte_order_mark(bytes.substr(0, 1024));
   if (start.find('\0') != std::string_view::npos) return false;
   start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n\v\f"), start.size()));
-  return start.starts_with("solid");
+  return equals_in_any_case(start.substr(0, 5), "solid");
 }
 
 }  // namespace
 
-Result<Mesh> read_stl(const std::filesystem::path& path) {
+Result<FileMesh> read_stl(const std::filesystem::path& path) {
   const auto bytes = read_file(path);
   if (!bytes) return forward_error(bytes);
   const std::string file = path.string();
+  if (!has_binary_length(*bytes) && is_utf16(*bytes)) return fail_as_utf16(file);
   if (is_text(*bytes)) return TextParser(file).parse(without_byte_order_mark(*bytes));
   if (bytes->size() < kBinaryHeaderBytes) {
     return fail(ErrorKind::kInput,

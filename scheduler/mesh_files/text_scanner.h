@@ -1,6 +1,7 @@
 // Words and numbers of text files.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string_view>
@@ -21,6 +22,24 @@ inline std::string_view trimmed(std::string_view text) {
 inline std::string_view without_byte_order_mark(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   return text;
+}
+
+/// Whether a text has two bytes a character: begins with the mark of UTF-16, or every other byte of
+/// its first few is 0.
+inline bool is_utf16(std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
+  if (text.size() < 4) return false;
+  const auto zero = [&](std::size_t i) { return text[i] == '\0'; };
+  return zero(0) == zero(2) && zero(1) == zero(3) && zero(0) != zero(1);
+}
+
+inline char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+
+/// `lower` must be in lower case; letters beyond ASCII are compared as they are.
+inline bool equals_in_any_case(std::string_view word, std::string_view lower) {
+  return word.size() == lower.size() &&
+         std::equal(word.begin(), word.end(), lower.begin(),
+                    [](char a, char b) { return lower_case(a) == b; });
 }
 
 /// Takes the next line off the front of `rest`, without its end.

@@ -1,6 +1,7 @@
 // The asset verb as a user sees it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/cli/program.h"
 
@@ -93,6 +94,119 @@ TEST_F(AssetVerb, BadFilesAndOptionsAreInputErrors) {
   EXPECT_EQ(import({"--fill-holes", "100000"}).exit_code, 2);
   EXPECT_EQ(run({"asset", "check", "prat", "--root", "lib"}).exit_code, 2);
   EXPECT_FALSE(exists("lib"));
+}
+
+TEST_F(AssetVerb, OneBadFileCostsNoOther) {
+  write("a.obj", kTetrahedron);
+  write("bad.obj", "v 0 0 0\n");
+  write("c.obj", kTetrahedron);
+  const std::vector<std::string> all = {"asset",  "import", "a.obj",  "bad.obj", "c.obj",
+                                        "--root", "lib",    "--unit", "mm"};
+  const Outcome outcome = run(all);
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.errors, HasSubstr("error: bad.obj has no polygons"));
+  EXPECT_TRUE(exists("lib/a/asset.json") && exists("lib/c/asset.json"));
+  EXPECT_FALSE(exists("lib/bad") || exists("lib/.bad.importing"));
+  const Outcome again = run(all);
+  EXPECT_EQ(again.exit_code, 2) << "all failed";
+  EXPECT_THAT(again.errors, HasSubstr("a.obj: lib/a exists; choose another name"));
+}
+
+TEST_F(AssetVerb, TheUsersOwnLibraryIsWhereAssetsGo) {
+  write("part.obj", kTetrahedron);
+  const std::string data = "XDG_DATA_HOME=" + (folder_ / "data").string();
+  const std::string library = (folder_ / "data/seedframe/assets").string();
+  const Outcome imported =
+      run({"asset", "import", "part.obj", "--unit", "mm", "--category", "tool"}, {data});
+  ASSERT_EQ(imported.exit_code, 0) << imported.errors;
+  EXPECT_THAT(imported.output, HasSubstr("asset_folders: [" + library + "]"));
+  EXPECT_TRUE(exists("data/seedframe/assets/part/thumbnail.png"));
+  const Outcome listed = run({"asset", "list"}, {data});
+  EXPECT_THAT(listed.output, ::testing::ContainsRegex("part +tool +4 triangles"));
+  EXPECT_THAT(listed.output, ::testing::ContainsRegex("hex_bolt +hex_bolt "));
+  EXPECT_THAT(listed.output, ::testing::ContainsRegex("cube +\\(distractor\\)"));
+  // A config may read it without being allowed to.
+  write("scene.yaml", "seedframe: 1\nasset_folders: [" + library +
+                          "]\ncategories: [tool]\nobjects: {p: {asset: part}}\n"
+                          "camera: {distance_m: 1}\n");
+  const Outcome checked = run({"check", "scene.yaml"}, {data});
+  EXPECT_EQ(checked.exit_code, 0) << checked.errors;
+  EXPECT_EQ(run({"asset", "check", "part"}, {data}).exit_code, 0);
+  const Outcome built_in = run({"asset", "remove", "gear"}, {data});
+  EXPECT_EQ(built_in.exit_code, 2) << "the built-in assets are none of the user's";
+  EXPECT_EQ(run({"asset", "remove", "part"}, {data}).exit_code, 0);
+  EXPECT_FALSE(exists("data/seedframe/assets/part"));
+  EXPECT_EQ(run({"asset", "list"}, {data}).exit_code, 0);
+}
+
+TEST_F(AssetVerb, RemoveTakesWholeAssetsByName) {
+  ASSERT_EQ(import().exit_code, 0);
+  ASSERT_EQ(import({"--name", "other"}).exit_code, 0);
+  const Outcome wrong = run({"asset", "remove", "part", "othr", "--root", "lib"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.errors, HasSubstr("did you mean 'other'?"));
+  EXPECT_TRUE(exists("lib/part")) << "with one wrong name, none is removed";
+  const Outcome removed = run({"asset", "remove", "part", "--root", "lib"});
+  EXPECT_EQ(removed.exit_code, 0) << removed.errors;
+  EXPECT_THAT(removed.output, HasSubstr("removed lib/part"));
+  EXPECT_EQ(contents("lib").count("other/asset.json"), 1u);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "lib"),
+                          std::filesystem::directory_iterator()),
+            1);
+}
+
+TEST_F(AssetVerb, NamesInOtherEncodingsAreNoInternalErrors) {
+  write(
+      "gr\xF6\xDF"
+      "e.obj",
+      std::string("mtllib gr\xF6\xDF"
+                  "e.mtl\n") +
+          kTetrahedron);
+  const Outcome imported = run({"asset", "import",
+                                "gr\xF6\xDF"
+                                "e.obj",
+                                "--root", "l\xF6", "--category",
+                                "Gr\xF6\xDF"
+                                "e",
+                                "--description", "\xFF", "--unit", "mm", "--json"});
+  ASSERT_EQ(imported.exit_code, 0) << imported.errors;
+  const auto json = parse_json(imported.output, "report");
+  ASSERT_TRUE(json) << imported.output;
+  EXPECT_EQ((*json)[0]["name"], "gr__e");
+  EXPECT_EQ((*json)[0]["category"], "Größe");
+  EXPECT_EQ((*json)[0]["source"], "größe.obj");
+  EXPECT_EQ((*json)[0]["not_kept"][0], "materials and images of 'größe.mtl'");
+  const Outcome listed = run({"asset", "list", "--root", "l\xF6", "--json"});
+  EXPECT_EQ(listed.exit_code, 0) << listed.errors;
+  EXPECT_TRUE(parse_json(listed.output, "list"));
+  EXPECT_EQ(run({"asset", "import", "n\xF6thing.obj", "--root", "lib", "--json"}).exit_code, 2);
+}
+
+TEST_F(AssetVerb, UnitsHaveNames) {
+  write("part.obj", kTetrahedron);
+  for (const auto& [unit, size] :
+       std::map<std::string, std::string>{{"mm", "20.0 × 20.0 × 20.0 mm"},
+                                          {"cm", "200.0 ×"},
+                                          {"m", "20.0 × 20.0 × 20.0 m\n"},
+                                          {"in", "508.0 × 508.0 × 508.0 mm"}}) {
+    const Outcome outcome = run({"asset", "import", "part.obj", "--dry-run", "--unit", unit});
+    EXPECT_THAT(outcome.output, HasSubstr(size));
+    EXPECT_THAT(outcome.output, Not(HasSubstr("unit ")));
+  }
+  const Outcome guessed = run({"asset", "import", "part.obj", "--dry-run"});
+  EXPECT_THAT(guessed.output, HasSubstr("unit     metres, as the file does not say"));
+  EXPECT_THAT(guessed.output, HasSubstr("if it is in millimetres, --unit mm"));
+  EXPECT_EQ(run({"asset", "import", "part.obj", "--unit", "ft"}).exit_code, 2);
+  EXPECT_EQ(run({"asset", "import", "part.obj", "--unit", "mm", "--scale", "2"}).exit_code, 2);
+}
+
+TEST_F(AssetVerb, WhatIsNoFileIsRefusedAtOnce) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.stl").c_str(), 0600), 0);
+  for (const std::string file : {"pipe.stl", "/dev/zero", "/dev/null", "."}) {
+    const Outcome outcome = run({"asset", "import", file, "--root", "lib", "--name", "x"});
+    EXPECT_EQ(outcome.exit_code, 2) << file;
+    EXPECT_THAT(outcome.errors, HasSubstr("cannot read " + file + ": it is a")) << file;
+  }
 }
 
 TEST_F(AssetVerb, KeypointsAreSetShownAndTakenAway) {
