@@ -3,7 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <set>
 #include <string_view>
 #include <thread>
 
@@ -108,18 +114,74 @@ bool read_all(int fd, Clock::time_point deadline, std::string& text) {
   }
 }
 
+/// Our children, so that what they leave behind when they end can be told from them.
+class Children {
+ public:
+  static Children& ours() {
+    static Children children;
+    return children;
+  }
+
+  /// In the environment of each, and so of all that they start.
+  static std::string mark() { return fmt::format("SEEDFRAME_CHILD_OF={}", getpid()); }
+
+  pid_t start(const ChildCommand& command) {
+    std::vector<std::string> marked = command.environment;
+    marked.push_back(mark());
+    const std::vector<char*> arguments = pointers(command.arguments);
+    const std::vector<char*> environment = pointers(marked);
+    const pid_t parent = getpid();
+    const std::lock_guard lock(mutex_);
+    prctl(PR_SET_CHILD_SUBREAPER, 1);  // whose parent has ended becomes our child
+    const pid_t child = fork();
+    if (child == 0) become(command, arguments.data(), environment.data(), parent);
+    if (child > 0) running_.insert(child);
+    return child;
+  }
+
+  /// After one has ended: ends what it had started and left.
+  void ended(pid_t child) {
+    const std::lock_guard lock(mutex_);
+    running_.erase(child);
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
+      const std::string name = entry.path().filename();
+      if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+      const pid_t pid = std::stoi(name);
+      if (running_.contains(pid) || !is_marked_child(entry.path())) continue;
+      kill(pid, SIGKILL);
+      waitpid(pid, nullptr, 0);
+    }
+  }
+
+ private:
+  static std::string text_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  static bool is_marked_child(const std::filesystem::path& process) {
+    // After the name, which is in brackets and may hold anything: state, parent.
+    const std::string stat = text_of(process / "stat");
+    const std::size_t behind_name = stat.rfind(')');
+    if (behind_name == std::string::npos || behind_name + 4 >= stat.size()) return false;
+    if (std::atoi(stat.c_str() + behind_name + 4) != getpid()) return false;
+    const std::string environment = text_of(process / "environ");
+    return environment.find(mark()) != std::string::npos;
+  }
+
+  std::mutex mutex_;
+  std::set<pid_t> running_;
+};
+
 }  // namespace
 
 Result<pid_t> start_child(const ChildCommand& command) {
-  const std::vector<char*> arguments = pointers(command.arguments);
-  const std::vector<char*> environment = pointers(command.environment);
-  const pid_t parent = getpid();
-  const pid_t child = fork();
+  const pid_t child = Children::ours().start(command);
   if (child < 0) {
     return fail(ErrorKind::kEnvironment, "cannot start {}: fork: {}", command.arguments.front(),
                 std::strerror(errno));
   }
-  if (child == 0) become(command, arguments.data(), environment.data(), parent);
   setpgid(child, child);  // here too: whoever comes first, the group exists before anyone kills it
   return child;
 }
@@ -140,7 +202,10 @@ std::optional<int> wait_for_child(pid_t child, std::chrono::milliseconds longest
   while (true) {
     int status = 0;
     const pid_t ended = waitpid(child, &status, WNOHANG);
-    if (ended == child) return status;
+    if (ended == child) {
+      Children::ours().ended(child);
+      return status;
+    }
     if (ended < 0 && errno != EINTR) return std::nullopt;
     if (Clock::now() >= deadline) return std::nullopt;
     std::this_thread::sleep_for(pause);

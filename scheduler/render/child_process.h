@@ -35,7 +35,7 @@ inline constexpr int kChildChannel = 3;
 
 /// The child leads a process group of its own, so a terminal's Ctrl-C does not reach it, inherits
 /// nothing but the descriptors of its command, and gets SIGKILL when the *thread* that called this
-/// ends, however it ends.
+/// ends, however it ends. What it starts and leaves behind is ended after it.
 Result<pid_t> start_child(const ChildCommand& command);
 
 /// The CPUs that this process may run on, in order.

@@ -144,11 +144,17 @@ void LocalWorker::send_more() {
 
 bool LocalWorker::receive(std::vector<std::string>& lines) {
   std::array<char, 1 << 16> buffer;
+  // What it has started may hold the channel open after it. Looked at before the last is read.
+  pollfd process = {pid_fd_, POLLIN, 0};
+  const bool lives = poll(&process, 1, 0) == 0;
   bool open = true;
   while (open) {
     const ssize_t bytes = read(channel_, buffer.data(), buffer.size());
     if (bytes < 0 && errno == EINTR) continue;
-    if (bytes < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
+    if (bytes < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+      open = lives;
+      break;
+    }
     if (bytes <= 0) {
       open = false;
     } else {
@@ -174,7 +180,7 @@ void LocalWorker::add_events(std::vector<pollfd>& events) const {
   // poll(2) passes over descriptors that are closed.
   events.push_back({channel_, static_cast<short>(unsent_.empty() ? POLLIN : POLLIN | POLLOUT), 0});
   events.push_back({log_pipe_, POLLIN, 0});
-  if (channel_ < 0) events.push_back({pid_fd_, POLLIN, 0});
+  events.push_back({pid_fd_, POLLIN, 0});
 }
 
 void LocalWorker::move_bytes() {

@@ -138,6 +138,20 @@ TEST_F(LocalPoolTest, ASandboxedWorkerWritesOnlyWhereItMayAndHasNoNetwork) {
   EXPECT_FALSE(std::filesystem::exists(SEEDFRAME_HOME "/outside"));
 }
 
+TEST_F(LocalPoolTest, WhatAWorkerStartedEndsWithIt) {
+  const auto script = folder / "parent_blender";
+  std::ofstream(script) << "#!/bin/sh\nsetsid sleep 1000 &\necho $! > "
+                        << (folder / "child").string() << "\nsleep 0.2\nexit 1\n";
+  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  worker.blender.path = script;
+  make_pool();
+  EXPECT_FALSE(run(1));
+  int child = 0;
+  std::ifstream(folder / "child") >> child;
+  ASSERT_GT(child, 0);
+  EXPECT_EQ(kill(child, 0), -1) << "it has left its worker's group, and lives";
+}
+
 TEST_F(LocalPoolTest, ASandboxedWorkerRendersAndDiesWithTheOthers) {
   if (const Status works = check_sandbox(); !works) GTEST_SKIP() << works.error().message;
   worker.wrapper = sandbox_arguments(folder, {SEEDFRAME_HOME});
