@@ -1,7 +1,7 @@
 #include "mesh/collapse_ring.h"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include "mesh/triangle_distance.h"
 
@@ -15,26 +15,38 @@ void append(TracedSurface::Samples& to, const TracedSurface::Samples& from) {
 }
 
 // Gives each sample to the part that is nearest now; false if one is too far from all of them.
-template <class Part, class SquaredDistance>
-bool hand_out(TracedSurface::Samples samples, std::vector<Part>& parts,
+// `bounds` gives a part's box: most parts are farther than the one that held the sample before.
+template <class Part, class SquaredDistance, class Bounds>
+bool hand_out(const TracedSurface::Samples& loose, std::vector<Part>& parts,
               TracedSurface::Samples Part::*held, const SimplifyOriginal& original,
-              double squared_tolerance, const SquaredDistance& squared_distance) {
+              double squared_tolerance, const SquaredDistance& squared_distance,
+              const Bounds& bounds) {
+  if (parts.empty()) return loose.empty();
+  std::vector<Eigen::AlignedBox3d> boxes;
+  std::vector<TracedSurface::Samples> before;
   for (Part& part : parts) {
-    append(samples, part.*held);
-    (part.*held).clear();
+    boxes.push_back(bounds(part));
+    before.push_back(std::exchange(part.*held, {}));
   }
-  for (const std::uint32_t sample : samples) {
-    const Vector& p = original.samples[sample];
-    Part* nearest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    for (Part& part : parts) {
-      const double distance = squared_distance(p, part);
-      if (distance >= least) continue;
-      least = distance;
-      nearest = &part;
-    }
-    if (nearest == nullptr || least > squared_tolerance) return false;
-    (nearest->*held).push_back(sample);
+  const auto hand_out_all = [&](const TracedSurface::Samples& samples, std::size_t holder) {
+    return std::all_of(samples.begin(), samples.end(), [&](std::uint32_t sample) {
+      const Vector& p = original.samples[sample];
+      std::size_t nearest = holder;
+      double least = squared_distance(p, parts[holder]);
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (i == holder || boxes[i].squaredExteriorDistance(p) >= least) continue;
+        const double distance = squared_distance(p, parts[i]);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = i;
+      }
+      (parts[nearest].*held).push_back(sample);
+      return least <= squared_tolerance;
+    });
+  };
+  if (!hand_out_all(loose, 0)) return false;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!hand_out_all(before[i], i)) return false;
   }
   return true;
 }
@@ -128,17 +140,23 @@ bool CollapseRing::keeps_direction() const {
 
 bool CollapseRing::keeps_original_near(const SimplifyOriginal& original, double squared_tolerance) {
   if (triangles_.empty()) return false;
-  return hand_out(loose_on_, triangles_, &Triangle::on, original, squared_tolerance,
-                  [this](const Vector& p, const Triangle& t) {
-                    return squared_distance_to_triangle(p, t.at_a, t.at_b, point_);
-                  });
+  return hand_out(
+      loose_on_, triangles_, &Triangle::on, original, squared_tolerance,
+      [this](const Vector& p, const Triangle& t) {
+        return squared_distance_to_triangle(p, t.at_a, t.at_b, point_);
+      },
+      [this](const Triangle& t) {
+        return Eigen::AlignedBox3d(t.at_a).extend(t.at_b).extend(point_);
+      });
 }
 
 bool CollapseRing::keeps_lines_near(const SimplifyOriginal& original, double squared_tolerance) {
-  return hand_out(loose_along_, spokes_, &Spoke::along, original, squared_tolerance,
-                  [this](const Vector& p, const Spoke& spoke) {
-                    return squared_distance_to_segment(p, spoke.at, point_);
-                  });
+  return hand_out(
+      loose_along_, spokes_, &Spoke::along, original, squared_tolerance,
+      [this](const Vector& p, const Spoke& spoke) {
+        return squared_distance_to_segment(p, spoke.at, point_);
+      },
+      [this](const Spoke& spoke) { return Eigen::AlignedBox3d(spoke.at).extend(point_); });
 }
 
 bool CollapseRing::stays_near_original(const SimplifyOriginal& original,

@@ -18,12 +18,6 @@ namespace seedframe {
 namespace {
 
 using Vector = Eigen::Vector3d;
-using Box = Eigen::AlignedBox3d;
-
-Box box_of(const TriangleCorners& t) {
-  Box box(t[0]);
-  return box.extend(t[1]).extend(t[2]);
-}
 
 double distance(const Vector& p, const TriangleCorners& t) {
   return std::sqrt(squared_distance_to_triangle(p, t[0], t[1], t[2]));
@@ -120,9 +114,9 @@ class DirectedDistance {
     for (std::size_t t = 0; t < least.size(); ++t) {
       if (least[t] <= enough()) {
         found_.upper_m = std::max(found_.upper_m, least[t]);
-        continue;
+      } else {
+        look_at(parts[t], 0);
       }
-      look_at(parts[t], to_.near_box(box_of(parts[t]), least[t]), 0);
     }
     found_.upper_m = std::max(found_.upper_m, found_.lower_m);
     return found_;
@@ -131,28 +125,17 @@ class DirectedDistance {
  private:
   double enough() const { return found_.lower_m + tolerance_; }
 
-  // `near` holds every triangle that is the nearest one to any point of `part`.
-  void look_at(const TriangleCorners& part, const std::vector<std::uint32_t>& near, int depth) {
+  void look_at(const TriangleCorners& part, int depth) {
     const Vector centre = (part[0] + part[1] + part[2]) / 3.0;
-    std::array<double, 3> nearest;
-    nearest.fill(std::numeric_limits<double>::infinity());
-    double one_triangle = std::numeric_limits<double>::infinity();
-    double to_centre = std::numeric_limits<double>::infinity();
-    std::uint32_t at_centre = 0;
-    for (const std::uint32_t t : near) {
-      const TriangleCorners& other = to_.triangles()[t];
-      double farthest = 0.0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double d = distance(part[i], other);
-        nearest[i] = std::min(nearest[i], d);
-        farthest = std::max(farthest, d);
-      }
-      one_triangle = std::min(one_triangle, farthest);
-      const double d = squared_distance_to_triangle(centre, other[0], other[1], other[2]);
-      if (d < to_centre) at_centre = t;
-      to_centre = std::min(to_centre, d);
+    const std::uint32_t at_centre = to_.nearest(centre).triangle;
+    double at_corners = 0.0;
+    double one_triangle = farthest_from(at_centre, part);
+    for (const Vector& corner : part) {
+      const TriangleSearch::Nearest nearest = to_.nearest(corner);
+      at_corners = std::max(at_corners, nearest.squared_distance);
+      one_triangle = std::min(one_triangle, farthest_from(nearest.triangle, part));
     }
-    const double at_corners = *std::max_element(nearest.begin(), nearest.end());
+    at_corners = std::sqrt(at_corners);
     found_.lower_m = std::max(found_.lower_m, at_corners);
     std::array<double, 3> sides{};
     for (std::size_t i = 0; i < 3; ++i) sides[i] = (part[(i + 1) % 3] - part[i]).norm();
@@ -160,31 +143,37 @@ class DirectedDistance {
         static_cast<std::size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
     // No point is farther than this from its nearest corner, and distances change no faster.
     const double upper = std::min(one_triangle, at_corners + sides[longest] / std::sqrt(3.0));
-    constexpr std::size_t kMostSteps = 200'000'000;
+    constexpr std::size_t kMostSteps = 5'000'000;
     constexpr int kDeepest = 200;
-    steps_ += near.size();
-    if (upper <= enough() || steps_ > kMostSteps || depth == kDeepest) {
+    if (upper <= enough() || ++steps_ > kMostSteps || depth == kDeepest) {
       found_.upper_m = std::max(found_.upper_m, upper);
       return;
     }
-    const auto look_at_piece = [&](const TriangleCorners& piece) {
-      look_at(piece, still_near(piece, near, upper), depth + 1);
-    };
-    if (cut_along(at_centre, part, near, look_at_piece)) return;
+    // What lies beside a triangle by less than the tolerance is near it, too; but the corners of a
+    // sliver that was made wider are far from it.
+    if (cut_along(at_centre, part, 0.25 * tolerance_, depth)) return;
+    if (cut_along(at_centre, part, 0.0, depth)) return;
     const Vector middle = 0.5 * (part[longest] + part[(longest + 1) % 3]);
     for (const std::size_t replaced : {longest, (longest + 1) % 3}) {
       TriangleCorners half = part;
       half[replaced] = middle;
-      look_at_piece(half);
+      look_at(half, depth + 1);
     }
   }
 
-  // Cuts away what lies over one triangle of the other surface, if that is near enough, and looks
-  // at the rest: where the surfaces are flat, halving would follow every edge of the other one down
-  // to the tolerance.
-  template <class LookAt>
-  bool cut_along(std::uint32_t number, const TriangleCorners& part,
-                 const std::vector<std::uint32_t>& near, const LookAt& look_at_piece) {
+  // Convex: no point between the corners is farther.
+  double farthest_from(std::uint32_t triangle, std::span<const Vector> corners) const {
+    double farthest = 0.0;
+    for (const Vector& corner : corners) {
+      farthest = std::max(farthest, distance(corner, to_.triangles()[triangle]));
+    }
+    return farthest;
+  }
+
+  // Cuts away what lies over one triangle of the other surface, made wider by `margin`, if that is
+  // near enough, and looks at the rest: where the surfaces are flat, halving would follow every
+  // edge of the other one down to the tolerance.
+  bool cut_along(std::uint32_t number, const TriangleCorners& part, double margin, int depth) {
     constexpr double kLeastShare = 1e-9;  // rounding must not be taken for progress
     const TriangleCorners& triangle = to_.triangles()[number];
     const Vector normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
@@ -193,48 +182,26 @@ class DirectedDistance {
     std::array<Polygon, 3> beside;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector inward = normal.cross(triangle[(i + 1) % 3] - triangle[i]).normalized();
-      // A little wider: what lies beside the triangle by less than the tolerance is near it, too.
-      std::tie(over, beside[i]) = over.cut(triangle[i] - 0.25 * tolerance_ * inward, inward);
+      std::tie(over, beside[i]) = over.cut(triangle[i] - margin * inward, inward);
     }
     if (over.corners().size() < 3 || !(over.area() > least_area)) return false;
-    double farthest = 0.0;
-    for (const Vector& corner : over.corners()) {
-      farthest = std::max(farthest, distance(corner, triangle));
-    }
-    if (farthest > enough()) raise_lower(over, near);
+    const double farthest = farthest_from(number, over.corners());
+    if (farthest > enough()) raise_lower(over);
     if (farthest > enough()) return false;
     found_.upper_m = std::max(found_.upper_m, farthest);
     for (const Polygon& rest : beside) {
       const auto corners = rest.corners();
       for (std::size_t i = 2; i < corners.size(); ++i) {
-        look_at_piece({corners[0], corners[i - 1], corners[i]});
+        look_at({corners[0], corners[i - 1], corners[i]}, depth + 1);
       }
     }
     return true;
   }
 
-  void raise_lower(const Polygon& polygon, const std::vector<std::uint32_t>& near) {
+  void raise_lower(const Polygon& polygon) {
     for (const Vector& corner : polygon.corners()) {
-      double least = std::numeric_limits<double>::infinity();
-      for (const std::uint32_t t : near) {
-        least = std::min(least, distance(corner, to_.triangles()[t]));
-      }
-      found_.lower_m = std::max(found_.lower_m, least);
+      found_.lower_m = std::max(found_.lower_m, std::sqrt(to_.nearest(corner).squared_distance));
     }
-    steps_ += near.size();
-  }
-
-  std::vector<std::uint32_t> still_near(const TriangleCorners& part,
-                                        const std::vector<std::uint32_t>& near,
-                                        double reach) const {
-    const Box box = box_of(part);
-    const double squared = reach * reach * (1.0 + 1e-9);  // rounding must not lose the nearest
-    std::vector<std::uint32_t> kept;
-    kept.reserve(near.size());
-    for (const std::uint32_t t : near) {
-      if (box.squaredExteriorDistance(box_of(to_.triangles()[t])) <= squared) kept.push_back(t);
-    }
-    return kept;
   }
 
   const TriangleSearch& to_;

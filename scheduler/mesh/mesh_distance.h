@@ -13,11 +13,11 @@ struct SurfaceDistance {
   double upper_m = 0.0;
 };
 
-/// The interval is at most tolerance_m wide, or wider where that would take hundreds of millions of
-/// steps; it holds in any case. Branch and bound as in CGAL's bounded-error distance (Tang, Lee and
-/// Kim, "Interactive Hausdorff distance computation for general polygonal models", 2009); faster
-/// where the surfaces lie close to each other, because triangles are cut only among
-/// the few of the other surface that are near. Triangles without area count for nothing.
+/// The interval is at most tolerance_m wide, or wider where that would take millions of steps; it
+/// holds in any case. Branch and bound as in CGAL's bounded-error distance (Tang, Lee and Kim,
+/// "Interactive Hausdorff distance computation for general polygonal models", 2009); faster where
+/// the surfaces lie close to each other, because a triangle is first cut into what lies over single
+/// triangles of the other one. Triangles without area count for nothing.
 Result<SurfaceDistance> hausdorff_distance(const Mesh& a, const Mesh& b, double tolerance_m,
                                            const std::string& what);
 

@@ -53,10 +53,41 @@ Vector nearest_weights(const Vector& p, const Vector& a, const Vector& b, const 
   return nearest_weights_of_sides(p, a, b, c);
 }
 
+// The same regions as in nearest_weights, and those of the sides: it is asked millions of times.
 double squared_distance_to_triangle(const Vector& p, const Vector& a, const Vector& b,
                                     const Vector& c) {
-  const Vector w = nearest_weights(p, a, b, c);
-  return (w.x() * a + w.y() * b + w.z() * c - p).squaredNorm();
+  const Vector ab = b - a;
+  const Vector ac = c - a;
+  const Vector ap = p - a;
+  const double d1 = ab.dot(ap);
+  const double d2 = ac.dot(ap);
+  if (d1 <= 0.0 && d2 <= 0.0) return ap.squaredNorm();
+  const Vector bp = p - b;
+  const double d3 = ab.dot(bp);
+  const double d4 = ac.dot(bp);
+  if (d3 >= 0.0 && d4 <= d3) return bp.squaredNorm();
+  const Vector cp = p - c;
+  const double d5 = ab.dot(cp);
+  const double d6 = ac.dot(cp);
+  if (d6 >= 0.0 && d5 <= d6) return cp.squaredNorm();
+  const double wa = d3 * d6 - d5 * d4;
+  const double wb = d5 * d2 - d1 * d6;
+  const double wc = d1 * d4 - d3 * d2;
+  const double sum = wa + wb + wc;
+  // Of a sliver, rounding would name the wrong side.
+  constexpr double kSliver = 1e-10;
+  if (sum <= kSliver * ab.squaredNorm() * ac.squaredNorm()) {
+    const Vector w = nearest_weights_of_sides(p, a, b, c);
+    return (w.x() * a + w.y() * b + w.z() * c - p).squaredNorm();
+  }
+  if (wc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return (ap - d1 / (d1 - d3) * ab).squaredNorm();
+  if (wb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return (ap - d2 / (d2 - d6) * ac).squaredNorm();
+  if (wa <= 0.0) {
+    const double from_b = d4 - d3;
+    const double from_c = d5 - d6;
+    return (bp - from_b / (from_b + from_c) * (c - b)).squaredNorm();
+  }
+  return (ap - wb / sum * ab - wc / sum * ac).squaredNorm();
 }
 
 double squared_distance_to_segment(const Vector& p, const Vector& a, const Vector& b) {

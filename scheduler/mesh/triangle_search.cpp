@@ -115,25 +115,4 @@ bool TriangleSearch::any_within(const Eigen::Vector3d& point, double squared_dis
   return false;
 }
 
-std::vector<std::uint32_t> TriangleSearch::near_box(const Box& box, double reach) const {
-  std::vector<std::uint32_t> found;
-  if (nodes_.empty()) return found;
-  const Box wide(box.min().array() - reach, box.max().array() + reach);
-  std::array<std::uint32_t, kMostWaiting> waiting;
-  std::size_t count = 0;
-  waiting[count++] = 0;
-  while (count > 0) {
-    const Node& node = nodes_[waiting[--count]];
-    if (!node.box.intersects(wide)) continue;
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const TriangleCorners& t = triangles_[order_[i]];
-      if (Box(t[0]).extend(t[1]).extend(t[2]).intersects(wide)) found.push_back(order_[i]);
-    }
-    if (node.count > 0) continue;
-    waiting[count++] = node.first;
-    waiting[count++] = node.first + 1;
-  }
-  return found;
-}
-
 }  // namespace seedframe

@@ -1,4 +1,4 @@
-// Which triangles are near a point or a box.
+// Which triangles are near a point.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -29,9 +29,6 @@ class TriangleSearch {
 
   /// Whether one is within the distance of the point.
   bool any_within(const Eigen::Vector3d& point, double squared_distance) const;
-
-  /// Those whose boxes are within the distance of the box along each axis.
-  std::vector<std::uint32_t> near_box(const Eigen::AlignedBox3d& box, double reach) const;
 
  private:
   struct Node {

@@ -61,12 +61,29 @@ Mesh flat_grid(std::uint32_t n, float move) {
   return mesh;
 }
 
+// A flat disc of n triangles around its centre, which is moved within the plane.
+Mesh fan(std::uint32_t n, float move) {
+  Mesh mesh;
+  mesh.positions.push_back({move, 0.7f * move, 0.0f});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2.0 * M_PI * i / n;
+    mesh.positions.push_back({0.1f * static_cast<float>(portable::cos(angle)),
+                              0.1f * static_cast<float>(portable::sin(angle)), 0.0f});
+    mesh.triangles.push_back({0, i + 1, (i + 1) % n + 1});
+  }
+  mesh.corner_uvs.resize(std::size_t{3} * n);
+  mesh.triangle_slots.resize(n);
+  mesh.slot_names = {"disc"};
+  return mesh;
+}
+
 TEST(MeshDistance, OfFlatSurfacesIsQuicklyToldWhateverTheirTriangles) {
   // As compression moves vertices: halving triangles until each is within one of the other mesh
   // would take a hundred million steps.
   for (const auto& [a, b] : {std::pair(flat_grid(5, 0.0f), flat_grid(5, 4e-6f)),
                              std::pair(flat_grid(40, 0.0f), flat_grid(40, 4e-6f)),
-                             std::pair(flat_grid(40, 0.0f), flat_grid(3, 0.0f))}) {
+                             std::pair(flat_grid(40, 0.0f), flat_grid(3, 0.0f)),
+                             std::pair(fan(200, 0.0f), fan(200, 4e-6f))}) {
     const auto found = hausdorff_distance(a, b, 1e-6, "grids");
     ASSERT_TRUE(found);
     EXPECT_LT(found->lower_m, 1e-8);
