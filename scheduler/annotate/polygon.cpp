@@ -39,19 +39,57 @@ class Walks {
   /// Makes one walk of two: at the end of crack `from` it goes over to the beginning of crack `to`,
   /// around, and back the same way. Both ends of the bridge are doubled for that, and the
   /// successors of one copy each exchanged.
-  void join(std::size_t from, std::size_t to) {
-    const std::size_t from_stop = 2 * from + 1;
-    const std::size_t to_stop = 2 * to;
-    const std::size_t from_copy = double_stop(from_stop);
-    const std::size_t to_copy = double_stop(to_stop);
-    stops_[from_stop].next = to_copy;
-    stops_[to_stop].next = from_copy;
+  void join(std::size_t from, std::size_t to) { join_over({}, from, to); }
+
+  /// The same, over background pixels: along a diagonal, and then along a row or a column. On the
+  /// way the walk stands at the same corner of every pixel, chosen so that it leaves a row and a
+  /// column at once: wherever a loader puts further points on it, they are in the pixels of the
+  /// bridge, on the way there as on the way back.
+  void join_parts(std::size_t from, std::size_t to) {
+    const Stop& begin = stops_[2 * from + 1];
+    const Stop& end = stops_[2 * to];
+    const int down = end.row - begin.row;
+    const int right = end.column - begin.column;
+    const int diagonal = std::min(std::abs(down), std::abs(right));
+    const Stop first = {.row = begin.row,
+                        .column = begin.column,
+                        .south = (down < 0) != (right < 0),
+                        .east = false,
+                        .bridge = true,
+                        .next = 0};
+    Stop turn = first;
+    turn.row += down < 0 ? -diagonal : diagonal;
+    turn.column += right < 0 ? -diagonal : diagonal;
+    Stop last = first;
+    last.row = end.row;
+    last.column = end.column;
+    join_over({first, turn, last}, from, to);
   }
 
   /// The walk that passes the beginning of a crack, without vertices on straight lines.
   Polygon polygon(std::size_t crack, const VertexPlacement& placement) const;
 
  private:
+  void join_over(std::vector<Stop> way, std::size_t from, std::size_t to) {
+    const std::size_t from_stop = 2 * from + 1;
+    const std::size_t to_stop = 2 * to;
+    const std::size_t from_copy = double_stop(from_stop);
+    const std::size_t to_copy = double_stop(to_stop);
+    link(from_stop, way, to_copy);
+    std::reverse(way.begin(), way.end());
+    link(to_stop, way, from_copy);
+  }
+
+  /// Goes from a stop over new ones to another.
+  void link(std::size_t stop, const std::vector<Stop>& way, std::size_t end) {
+    for (const Stop& between : way) {
+      stops_[stop].next = stops_.size();
+      stop = stops_.size();
+      stops_.push_back(between);
+    }
+    stops_[stop].next = end;
+  }
+
   void add_stop(const Crack& crack, int end, std::size_t next) {
     const int corner = (static_cast<int>(crack.side) + end) & 3;  // from top left, clockwise
     stops_.push_back({.row = crack.row,
@@ -244,7 +282,7 @@ WholePolygon whole_polygon(const Mask& mask, const VertexPlacement& placement) {
   };
   for (const PartBridge& bridge : bridges) {
     if (kept(bridge.from_crack) && kept(bridge.to_crack)) {
-      walks.join(bridge.from_crack, bridge.to_crack);
+      walks.join_parts(bridge.from_crack, bridge.to_crack);
     }
   }
   const auto first = std::find(worthwhile.kept.begin(), worthwhile.kept.end(), true);

@@ -36,7 +36,7 @@ inline constexpr VertexPlacement kOnPixelEdges{0, kVerticesPerPixel};
 /// 0.02 px inside the mask: every vertex truncates to the pixel that it belongs to (ultralytics).
 inline constexpr VertexPlacement kInsidePixelEdges{2, kVerticesPerPixel - 2};
 /// Truncates and rounds to the pixel that it belongs to, for loaders that round; right and lower
-/// edges stand 0.52 px inside the mask.
+/// edges stand 0.52 px inside the mask. Points between vertices do not where corners touch.
 inline constexpr VertexPlacement kNearestToPixels{2, 48};
 
 /// Outer rings run clockwise as seen in the image (y down), holes counterclockwise.
@@ -58,9 +58,10 @@ struct WholePolygon {
 };
 
 /// One polygon for the whole mask: parts are joined by bridges of no width too, the shortest there
-/// are. Those cross background, and a decoder that also fills the polygon's outline paints the
-/// pixels under them; nothing else can be said in one polygon. A part with fewer pixels than its
-/// bridge would paint is left out, unless the mask's box would be another without it.
+/// are, along a diagonal and then a row or a column. Those cross background, and a decoder that
+/// also fills the polygon's outline paints the pixels under them; nothing else can be said in one
+/// polygon. A part with fewer pixels than its bridge would paint is left out, unless the mask's box
+/// would be another without it.
 WholePolygon whole_polygon(const Mask& mask, const VertexPlacement& placement);
 
 }  // namespace seedframe

@@ -16,14 +16,16 @@ std::vector<std::vector<double>> crossings(const Polygon& polygon, const PixelRe
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vertex& from = polygon[i];
     const Vertex& to = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-    const auto [low, high] = std::minmax({from.y, to.y});
-    const int first = std::max((low + kHalfPixel - 1) / kVerticesPerPixel, box.y);
-    const int last = std::min(high / kVerticesPerPixel, box.end_y() - 1);
+    // From the upper end, so that a bridge gets the same numbers on the way back.
+    const Vertex& upper = from.y < to.y ? from : to;
+    const Vertex& lower = from.y < to.y ? to : from;
+    const int first = std::max((upper.y + kHalfPixel - 1) / kVerticesPerPixel, box.y);
+    const int last = std::min(lower.y / kVerticesPerPixel, box.end_y() - 1);
     for (int row = first; row <= last; ++row) {
       const std::int32_t y = row * kVerticesPerPixel + kHalfPixel;
-      if (y < low || y >= high) continue;  // a vertex at this height counts once
-      const double share = static_cast<double>(y - from.y) / (to.y - from.y);
-      rows[static_cast<std::size_t>(row - box.y)].push_back(from.x + share * (to.x - from.x));
+      if (y < upper.y || y >= lower.y) continue;  // a vertex at this height counts once
+      const double share = static_cast<double>(y - upper.y) / (lower.y - upper.y);
+      rows[static_cast<std::size_t>(row - box.y)].push_back(upper.x + share * (lower.x - upper.x));
     }
   }
   for (auto& row : rows) std::sort(row.begin(), row.end());

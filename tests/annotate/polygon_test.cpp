@@ -1,7 +1,5 @@
 #include "annotate/polygon.h"
 
-#include <set>
-
 #include <gtest/gtest.h>
 
 #include "tests/annotate/coco_decoder.h"
@@ -42,38 +40,6 @@ std::vector<std::vector<double>> coordinates(const std::vector<Polygon>& polygon
   std::vector<std::vector<double>> all;
   for (const Polygon& polygon : polygons) all.push_back(coordinates(polygon));
   return all;
-}
-
-yolo_decoder::Row yolo_row(const Polygon& polygon, int width, int height) {
-  yolo_decoder::Row row{.category = 0, .numbers = {}};
-  for (const Vertex& vertex : polygon) {
-    row.numbers.push_back(static_cast<float>(vertex.x / 100.0 / width));
-    row.numbers.push_back(static_cast<float>(vertex.y / 100.0 / height));
-  }
-  return row;
-}
-
-/// Points spread evenly over the polygon's parameter, as ultralytics resamples segments: `count` of
-/// them beside the vertices themselves.
-yolo_decoder::Row resampled(const yolo_decoder::Row& row, std::size_t count) {
-  const std::size_t vertices = row.numbers.size() / 2;
-  std::set<double> places;
-  for (std::size_t i = 0; i <= vertices; ++i) places.insert(static_cast<double>(i));
-  for (std::size_t i = 0; i < count; ++i) {
-    places.insert(static_cast<double>(i) * static_cast<double>(vertices) /
-                  static_cast<double>(count));
-  }
-  yolo_decoder::Row dense{.category = row.category, .numbers = {}};
-  for (const double place : places) {
-    const auto from = static_cast<std::size_t>(place) % vertices;
-    const double share = place - std::floor(place);
-    for (const std::size_t axis : {0, 1}) {
-      const double a = row.numbers[2 * from + axis];
-      const double b = row.numbers[2 * ((from + 1) % vertices) + axis];
-      dense.numbers.push_back(static_cast<float>(a + share * (b - a)));
-    }
-  }
-  return dense;
 }
 
 TEST(BoundaryRings, OnePixelIsOneClockwiseSquare) {
@@ -177,7 +143,7 @@ TEST(WholePolygon, StandsTwoHundredthsInsideThePixelEdges) {
 TEST(WholePolygon, JoinsPartsByTheShortestBridge) {
   const MaskCase mask = mask_drawing("", {"#....", ".....", "..###", "....."});
   const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges).polygon;
-  const Bitmap found = yolo_decoder::bitmap_of_row(yolo_row(polygon, 5, 4), 5, 4);
+  const Bitmap found = yolo_decoder::bitmap_of_row(yolo_decoder::yolo_row(polygon, 5, 4), 5, 4);
   const MaskCase bridged = mask_drawing("", {"#....", ".#...", "..###", "....."});
   EXPECT_EQ(found.values, bitmap_of(bridged.ids).values);
 }
@@ -202,7 +168,8 @@ TEST(WholePolygon, LeavesOutAFragmentThatIsSmallerThanItsBridge) {
                                          "#############"});
   const WholePolygon left = whole_polygon(mask_of(far.ids), kInsidePixelEdges);
   EXPECT_EQ(left.left_out_px, 1) << "a bridge of four pixels is not";
-  const Bitmap found = yolo_decoder::bitmap_of_row(yolo_row(left.polygon, 13, 8), 13, 8);
+  const Bitmap found =
+      yolo_decoder::bitmap_of_row(yolo_decoder::yolo_row(left.polygon, 13, 8), 13, 8);
   const Difference wrong = difference(found, bitmap_of(far.ids));
   EXPECT_EQ(wrong.lost, 1);
   EXPECT_EQ(wrong.added, 0);
@@ -234,7 +201,7 @@ Decoded decode_all(const VertexPlacement& placement, yolo_decoder::ToPixels to_p
     const int height = mask.ids.height;
     const Polygon polygon = whole_polygon(mask_of(mask.ids), placement).polygon;
     EXPECT_GE(polygon.size(), 3U);
-    const yolo_decoder::Row row = yolo_row(polygon, width, height);
+    const yolo_decoder::Row row = yolo_decoder::yolo_row(polygon, width, height);
     const Bitmap found = yolo_decoder::bitmap_of_row(row, width, height, to_pixels);
     const Difference wrong = difference(found, truth);
     EXPECT_LE(wrong.lost + wrong.added, parts == 1 ? 0 : shortest_bridges(truth));
@@ -251,43 +218,6 @@ TEST(WholePolygon, OnePartDecodesExactlyInALoaderThatTruncates) {
   EXPECT_GE(decoded.with_holes, 80);
 }
 
-/// Whether anywhere two mask pixels touch at a corner and nowhere else.
-bool has_corner_contact(const Bitmap& mask) {
-  for (int row = 0; row + 1 < mask.height; ++row) {
-    for (int column = 0; column + 1 < mask.width; ++column) {
-      const int down = mask.at(row, column) + mask.at(row + 1, column + 1);
-      const int up = mask.at(row + 1, column) + mask.at(row, column + 1);
-      if ((down == 2 && up == 0) || (down == 0 && up == 2)) return true;
-    }
-  }
-  return false;
-}
-
-// ultralytics inserts points between the vertices. Where two pixels touch at a corner only, the
-// outline passes through that corner, and a point that falls on it may be rounded to either side.
-TEST(WholePolygon, ResamplingChangesNothingButWhereOnlyCornersTouch) {
-  int exact = 0;
-  int corner_contacts = 0;
-  for (const MaskCase& mask : mask_cases()) {
-    const Bitmap truth = bitmap_of(mask.ids);
-    if (count_parts(truth) != 1) continue;
-    SCOPED_TRACE(mask.name);
-    const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges).polygon;
-    const auto row = yolo_row(polygon, mask.ids.width, mask.ids.height);
-    const Bitmap found =
-        yolo_decoder::bitmap_of_row(resampled(row, 1000), mask.ids.width, mask.ids.height);
-    if (has_corner_contact(truth)) {
-      ASSERT_GE(intersection_over_union(found, truth), 0.94);
-      ++corner_contacts;
-    } else {
-      ASSERT_EQ(found.values, truth.values);
-      ++exact;
-    }
-  }
-  EXPECT_GE(exact, 25);
-  EXPECT_GE(corner_contacts, 40);
-}
-
 TEST(WholePolygon, NearestPlacementDecodesExactlyInLoadersThatTruncateAndThatRound) {
   EXPECT_GE(decode_all(kNearestToPixels, yolo_decoder::ToPixels::kTruncate).one_part, 80);
   EXPECT_GE(decode_all(kNearestToPixels, yolo_decoder::ToPixels::kRound).one_part, 80);
@@ -300,34 +230,13 @@ TEST(WholePolygon, BoxIsWithinTwoHundredthsOfAPixel) {
     const Polygon polygon = whole_polygon(view, kInsidePixelEdges).polygon;
     if (polygon.empty()) continue;
     SCOPED_TRACE(mask.name);
-    const auto row = yolo_row(polygon, mask.ids.width, mask.ids.height);
+    const auto row = yolo_decoder::yolo_row(polygon, mask.ids.width, mask.ids.height);
     const auto box = yolo_decoder::box_of_polygon_row(row, mask.ids.width, mask.ids.height);
     const PixelRect& truth = view.box();
     ASSERT_LE(yolo_decoder::box_error(box, truth.x, truth.y, truth.width, truth.height), 0.0201);
     ++checked;
   }
   EXPECT_GE(checked, 200);
-}
-
-// Parts of a size that a camera sees: what bridges cost.
-TEST(WholePolygon, SeveralPartsDecodeWellAtRealisticSizes) {
-  int several = 0;
-  double sum = 0.0;
-  for (std::uint64_t seed = 1000; seed < 1060; ++seed) {
-    const MaskCase mask = random_blobs(seed, 320, 240);
-    const Bitmap truth = bitmap_of(mask.ids);
-    if (count_parts(truth) < 2) continue;
-    SCOPED_TRACE(mask.name);
-    const Polygon polygon = whole_polygon(mask_of(mask.ids), kInsidePixelEdges).polygon;
-    const Bitmap found = yolo_decoder::bitmap_of_row(yolo_row(polygon, 320, 240), 320, 240);
-    const double iou = intersection_over_union(found, truth);
-    EXPECT_GE(iou, 0.97);
-    sum += iou;
-    ++several;
-  }
-  ASSERT_GE(several, 20);
-  RecordProperty("mean_iou", std::to_string(sum / several));
-  EXPECT_GE(sum / several, 0.99);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "annotate/polygon.h"
 #include "image/image.h"
 
 namespace seedframe::yolo_decoder {
@@ -36,6 +37,47 @@ inline std::vector<Row> parse_rows(const std::string& text) {
     rows.push_back(std::move(row));
   }
   return rows;
+}
+
+/// As it would be read from a label file.
+inline Row yolo_row(const Polygon& polygon, int width, int height) {
+  Row row{.category = 0, .numbers = {}};
+  for (const Vertex& vertex : polygon) {
+    row.numbers.push_back(static_cast<float>(vertex.x / 100.0 / width));
+    row.numbers.push_back(static_cast<float>(vertex.y / 100.0 / height));
+  }
+  return row;
+}
+
+/// As ultralytics reads segments: 1,000 points by linear interpolation, the vertices among them,
+/// the others evenly over the closed polygon's parameter, one a vertex. Of a polygon that has more,
+/// the vertices alone.
+inline Row resampled(const Row& row) {
+  constexpr std::size_t kPoints = 1000;
+  const std::size_t vertices = row.numbers.size() / 2;
+  if (vertices == kPoints) return row;
+  std::vector<double> places;
+  const std::size_t closed = vertices + 1;
+  const std::size_t even = closed < kPoints ? kPoints - closed : closed;
+  for (std::size_t i = 0; i < even; ++i) {
+    places.push_back(static_cast<double>(i) * static_cast<double>(vertices) /
+                     static_cast<double>(std::max<std::size_t>(even - 1, 1)));
+  }
+  if (closed < kPoints) {
+    for (std::size_t i = 0; i < closed; ++i) places.push_back(static_cast<double>(i));
+    std::sort(places.begin(), places.end());
+  }
+  Row dense{.category = row.category, .numbers = {}};
+  for (const double place : places) {
+    const auto from = static_cast<std::size_t>(place) % vertices;
+    const double share = place - std::floor(place);
+    for (const std::size_t axis : {0, 1}) {
+      const double a = row.numbers[2 * from + axis];
+      const double b = row.numbers[2 * ((from + 1) % vertices) + axis];
+      dense.numbers.push_back(static_cast<float>(a + share * (b - a)));
+    }
+  }
+  return dense;
 }
 
 /// In pixels: left, top, right, bottom.
