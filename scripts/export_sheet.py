@@ -85,7 +85,7 @@ def oriented(folder, split, stem, photo):
 
 
 def keypoints(folder, split, stem, photo):
-    path = folder / "coco-keypoints" / "annotations" / f"keypoints_{split}.json"
+    path = folder / "coco-keypoints" / "annotations" / f"person_keypoints_{split}.json"
     if not path.exists():
         return None
     coco = json.loads(path.read_text())

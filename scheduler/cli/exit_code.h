@@ -14,7 +14,7 @@ enum ExitCode : int {
   kExitOk = 0,
   kExitInternal = 1,     ///< a mistake in Seedframe itself
   kExitInput = 2,        ///< the config, an argument or the output folder; nothing was written
-  kExitSomeFailed = 3,   ///< the campaign ended, but some frames failed
+  kExitSomeFailed = 3,   ///< some frames failed, or some formats cannot be exported to
   kExitEnvironment = 4,  ///< Blender, the disk or the system is not as needed
   kExitCorrupt = 5,      ///< files are not as Seedframe wrote them
   // Of verbs that compare pixels: the worst that they found.

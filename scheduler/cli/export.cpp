@@ -98,8 +98,8 @@ void print_summary(const ExportSummary& summary) {
   fmt::print("{}: {}\n", summary.format, summary.folder.string());
   for (const SplitSummary& split : summary.splits) {
     const auto count = [&](Count which) { return at(split.counts, which); };
-    fmt::print("  {:<5} {} images ({} without objects), {} annotations", split.split, split.images,
-               split.background_images, count(Count::kAnnotations));
+    fmt::print("  {:<5} {} images ({} without annotations), {} annotations", split.split,
+               split.images, split.background_images, count(Count::kAnnotations));
     for (const auto& [which, text] :
          {std::pair(Count::kTooSmall, "left out as too small"),
           std::pair(Count::kTooHidden, "left out as too hidden"),
@@ -212,15 +212,19 @@ int export_campaign(const ExportArguments& arguments) {
                                "--partial exports without them",
                                dataset->missing, campaign->files.root().string())});
   }
-  const auto summaries = run_export(dataset->dataset, *formats, *options);
-  if (!summaries) return report(summaries.error());
-  for (const ExportSummary& summary : *summaries) print_summary(summary);
-  print_warnings(*summaries);
+  const auto outcome = run_export(dataset->dataset, *formats, *options);
+  if (!outcome) return report(outcome.error());
+  for (const ExportSummary& summary : outcome->written) print_summary(summary);
+  print_warnings(outcome->written);
   if (dataset->missing > 0) {
     std::fprintf(stderr, "seedframe: note: %lld frames are missing\n",
                  static_cast<long long>(dataset->missing));
   }
-  return kExitOk;
+  for (const ImpossibleExport& each : outcome->impossible) {
+    report({ErrorKind::kInput,
+            fmt::format("{} was not written: {}", each.format, each.error.message)});
+  }
+  return outcome->impossible.empty() ? kExitOk : kExitSomeFailed;
 }
 
 std::vector<std::string> format_names() {

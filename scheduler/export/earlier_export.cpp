@@ -65,7 +65,6 @@ std::optional<std::string> EarlierExport::read_piece(const IndexEntry::Piece& pi
           !document_there.of_split && document_there.reader && document_there.reader->at_end();
       each = over ? open_documents_.erase(each) : std::next(each);
     }
-    ++opened_;
     found =
         open_documents_
             .emplace(piece.document, Document{DocumentReader::open(folder_ / piece.document, kind),
@@ -113,7 +112,6 @@ void EarlierExport::open_empty_documents() {
       const std::string path = kind.path_of(split.name, 0, 0);
       if (open_documents_.count(path) > 0) continue;
       open_documents_.emplace(path, Document{DocumentReader::open(folder_ / path, kind), true});
-      ++opened_;
     }
   }
 }

@@ -44,8 +44,6 @@ class EarlierExport {
 
   /// Opens the documents of splits in which no frame has an entry; they must be empty.
   void open_empty_documents();
-  /// How many documents there should be: those that were opened.
-  std::int64_t documents() const { return opened_; }
 
   const std::filesystem::path& folder() const { return folder_; }
 
@@ -65,7 +63,6 @@ class EarlierExport {
     bool of_split = true;                  ///< stays open to the end
   };
   std::map<std::string, Document> open_documents_;
-  std::int64_t opened_ = 0;
 };
 
 }  // namespace seedframe

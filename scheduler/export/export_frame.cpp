@@ -42,6 +42,22 @@ Result<ExportInstance> whole_instance(const CommittedFrame& frame, const LoadedF
   return ExportInstance{&label, mask, area, std::move(image)};
 }
 
+Counts count_instances(const ExportFrame& frame) {
+  return count_instances(frame, [](const InstanceLabel&) { return true; });
+}
+
+Counts count_instances(const ExportFrame& frame,
+                       const std::function<bool(const InstanceLabel&)>& asked_for) {
+  Counts counts{};
+  for (const ExportInstance& instance : frame.instances) {
+    at(counts, Count::kAnnotations) += asked_for(*instance.label);
+  }
+  for (const ExportFrame::LeftOut& left_out : frame.left_out) {
+    at(counts, left_out.why) += asked_for(*left_out.label);
+  }
+  return counts;
+}
+
 Result<std::unique_ptr<ExportFrame>> select_instances(const CommittedFrame& frame,
                                                       LoadedFrame loaded, std::string split,
                                                       const ExportOptions& options) {
@@ -53,9 +69,9 @@ Result<std::unique_ptr<ExportFrame>> select_instances(const CommittedFrame& fram
   for (const InstanceLabel& label : selected->loaded.labels.instances) {
     if (label.category == 0 || label.area_px == 0) continue;
     if (label.area_px < options.min_pixels) {
-      ++at(selected->counts, Count::kTooSmall);
+      selected->left_out.push_back({&label, Count::kTooSmall});
     } else if (label.amodal && label.visible_fraction() < options.min_visible) {
-      ++at(selected->counts, Count::kTooHidden);
+      selected->left_out.push_back({&label, Count::kTooHidden});
     } else if (options.amodal) {
       auto whole = whole_instance(frame, selected->loaded, label);
       if (!whole) return forward_error(whole);
@@ -65,7 +81,6 @@ Result<std::unique_ptr<ExportFrame>> select_instances(const CommittedFrame& fram
       selected->instances.push_back({&label, mask, label.area_px, nullptr});
     }
   }
-  at(selected->counts, Count::kAnnotations) = static_cast<std::int64_t>(selected->instances.size());
   return selected;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,8 +30,12 @@ struct ExportFrame {
   LoadedFrame loaded;
   std::string split;  ///< its name
   std::string stem;   ///< "000042"
+  struct LeftOut {
+    const InstanceLabel* label = nullptr;
+    Count why = Count::kTooSmall;
+  };
   std::vector<ExportInstance> instances;
-  Counts counts;  ///< of what was exported and what was left out
+  std::vector<LeftOut> left_out;  ///< by the options, in the order of labels.json
 
   ExportFrame() = default;
   ExportFrame(ExportFrame&&) = delete;  // the instances look into it
@@ -47,6 +52,12 @@ PlacedFile image_at(const std::filesystem::path& path, const ExportFrame& frame)
 /// none that is exact.
 Result<ExportInstance> whole_instance(const CommittedFrame& frame, const LoadedFrame& loaded,
                                       const InstanceLabel& label);
+
+/// What the format exports of the frame, and what the options left out: of all instances, or of
+/// those that the format asks for.
+Counts count_instances(const ExportFrame& frame);
+Counts count_instances(const ExportFrame& frame,
+                       const std::function<bool(const InstanceLabel&)>& asked_for);
 
 /// The instances that the options let through, in the order of labels.json. kInput errors name a
 /// frame that has no exact silhouettes though they are asked for.

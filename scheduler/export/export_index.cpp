@@ -8,7 +8,7 @@ namespace seedframe {
 namespace {
 
 // Also of the bytes of all formats: nothing is taken over from an export of another version.
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 constexpr std::size_t kHashDigits = 32;
 
 }  // namespace
@@ -45,8 +45,9 @@ Result<ExportMarker> read_marker(const std::filesystem::path& export_folder) {
   const auto version = json_field<int>(*json, "version", what);
   if (!version) return forward_error(version);
   if (*version != kVersion) {
-    return fail(ErrorKind::kCorrupt, "{} has version {}; this Seedframe reads version {}", what,
-                *version, kVersion);
+    return fail(ErrorKind::kCorrupt,
+                "{} has version {}; this Seedframe reads version {}: export again", what, *version,
+                kVersion);
   }
   ExportMarker marker;
   const auto format = json_field<std::string>(*json, "format", what);

@@ -15,7 +15,7 @@ namespace seedframe {
 enum class PolygonVertices {
   kEdges,    ///< 0.02 px inside the pixel edges: exact in loaders that truncate (ultralytics)
   kCentres,  ///< nearest to the pixels' integer coordinates: exact in loaders that round as well,
-             ///< at the price of a box that ends 0.52 px too early
+             ///< if they put no points between, at the price of a box that ends 0.52 px too early
 };
 
 enum class PolygonDetail {

@@ -25,6 +25,7 @@ struct FrameTask {
   // After it was made:
   Status status;
   std::vector<FrameRecord> records;
+  std::vector<std::optional<Error>> refusals;  ///< of formats that cannot hold the frame
   std::vector<bool> reused;
   std::vector<IndexEntry> entries;
 };
@@ -52,7 +53,7 @@ class ExportRun {
  private:
   /// The next frame; none at the end, or when nothing more can be made of it.
   std::shared_ptr<FrameTask> next() {
-    if (hopeless_) return nullptr;
+    if (hopeless_ || all_given_up()) return nullptr;
     auto frame = cursor_();
     if (!frame) {
       add_error(frame.error());
@@ -92,10 +93,12 @@ class ExportRun {
     if (broken_) return {};  // only to find out what else is wrong
     const std::size_t formats = exports_.size();
     task.records.resize(formats);
+    task.refusals.resize(formats);
     task.reused.resize(formats, false);
     task.entries.resize(formats);
     std::unique_ptr<ExportFrame> selected;
     for (std::size_t i = 0; i < formats; ++i) {
+      if (exports_[i].refusal() != nullptr) continue;
       const auto& earlier = task.earlier[i];
       task.reused[i] = earlier && exports_[i].reuse(*earlier, *files, task.records[i]);
       if (!task.reused[i]) {
@@ -105,6 +108,10 @@ class ExportRun {
           selected = std::move(*loaded);
         }
         auto record = exports_[i].format().encode(*selected);
+        if (!record && record.error().kind == ErrorKind::kInput) {
+          task.refusals[i] = record.error();
+          continue;
+        }
         if (!record) return forward_error(record);
         task.records[i] = std::move(*record);
       }
@@ -132,6 +139,11 @@ class ExportRun {
     }
     if (broken_) return;
     for (std::size_t i = 0; i < exports_.size(); ++i) {
+      if (exports_[i].refusal() != nullptr) continue;
+      if (task.refusals[i]) {
+        exports_[i].give_up(std::move(*task.refusals[i]));
+        continue;
+      }
       const Status appended = exports_[i].append(task.frame, task.ordinal, task.records[i],
                                                  task.reused[i], std::move(task.entries[i]));
       if (!appended) {
@@ -151,8 +163,14 @@ class ExportRun {
     told_ += (told_.empty() ? "" : "\n") + error.message;
   }
 
+  bool all_given_up() const {
+    return std::all_of(exports_.begin(), exports_.end(),
+                       [](const FormatExport& each) { return each.refusal() != nullptr; });
+  }
+
   Status verdict() {
     if (errors_ == 0) {
+      if (all_given_up()) return {};
       if (last_index_ < 0) {
         return fail(ErrorKind::kInput,
                     "campaign '{}' has no complete frame to export: run 'seedframe resume' first",
@@ -201,6 +219,27 @@ Status check_categories(const Dataset& dataset) {
   return {};
 }
 
+/// Adds an export to `exports`, unless the format cannot hold the dataset.
+Status begin_export(const Dataset& dataset, const FormatEntry& entry, const ExportOptions& options,
+                    std::deque<FormatExport>& exports) {
+  auto format = entry.make(dataset, options);
+  if (!format) return forward_error(format);
+  auto folder = ExportFolder::create(options.output, entry.name);
+  if (!folder) return forward_error(folder);
+  exports.emplace_back(entry, std::move(*format), std::move(*folder), options);
+  return exports.back().begin(dataset);
+}
+
+/// With a single format its own error, else a line for each.
+tl::unexpected<Error> none_possible(const std::vector<ImpossibleExport>& impossible) {
+  if (impossible.size() == 1) return tl::unexpected(impossible.front().error);
+  std::string lines;
+  for (const ImpossibleExport& each : impossible) {
+    lines += fmt::format("{}{}: {}", lines.empty() ? "" : "\n", each.format, each.error.message);
+  }
+  return fail(ErrorKind::kInput, "{}", lines);
+}
+
 void add_warnings(const Dataset& dataset, ExportSummary& summary) {
   if (!dataset.has_images) {
     summary.warnings.emplace_back(
@@ -215,31 +254,36 @@ void add_warnings(const Dataset& dataset, ExportSummary& summary) {
 
 }  // namespace
 
-Result<std::vector<ExportSummary>> run_export(const Dataset& dataset,
-                                              const std::vector<const FormatEntry*>& formats,
-                                              const ExportOptions& options) {
+Result<ExportOutcome> run_export(const Dataset& dataset,
+                                 const std::vector<const FormatEntry*>& formats,
+                                 const ExportOptions& options) {
   if (Status possible = check_export_options(options); !possible) return forward_error(possible);
   if (Status named = check_categories(dataset); !named) return forward_error(named);
+  ExportOutcome outcome;
   std::deque<FormatExport> exports;  // they cannot move
   for (const FormatEntry* entry : formats) {
-    auto format = entry->make(dataset, options);
-    if (!format) return forward_error(format);
-    auto folder = ExportFolder::create(options.output, entry->name);
-    if (!folder) return forward_error(folder);
-    exports.emplace_back(*entry, std::move(*format), std::move(*folder), options);
-    if (Status begun = exports.back().begin(dataset); !begun) return forward_error(begun);
+    Status begun = begin_export(dataset, *entry, options, exports);
+    if (begun) continue;
+    if (begun.error().kind != ErrorKind::kInput) return forward_error(begun);
+    outcome.impossible.push_back({entry->name, begun.error()});
   }
+  if (exports.empty()) return none_possible(outcome.impossible);
   if (Status ran = ExportRun(dataset, options, exports).run(); !ran) return forward_error(ran);
   for (FormatExport& each : exports) {
-    if (Status finished = each.finish(); !finished) return forward_error(finished);
+    if (const Error* refusal = each.refusal()) {
+      outcome.impossible.push_back({each.summary().format, *refusal});
+    } else if (Status finished = each.finish(); !finished) {
+      return forward_error(finished);
+    }
   }
-  std::vector<ExportSummary> summaries;
+  if (outcome.impossible.size() == formats.size()) return none_possible(outcome.impossible);
   for (FormatExport& each : exports) {
+    if (each.refusal() != nullptr) continue;
     if (Status committed = each.commit(); !committed) return forward_error(committed);
     add_warnings(dataset, each.summary());
-    summaries.push_back(std::move(each.summary()));
+    outcome.written.push_back(std::move(each.summary()));
   }
-  return summaries;
+  return outcome;
 }
 
 }  // namespace seedframe

@@ -13,11 +13,23 @@
 
 namespace seedframe {
 
-/// kInput errors for options out of range, no categories, no frames, or an empty training split;
-/// kCorrupt errors name up to ten frames that are not as they were written. Nothing is written
-/// then, and exports that were there stay.
-Result<std::vector<ExportSummary>> run_export(const Dataset& dataset,
-                                              const std::vector<const FormatEntry*>& formats,
-                                              const ExportOptions& options);
+/// A format that cannot hold the dataset or one of its frames.
+struct ImpossibleExport {
+  std::string format;
+  Error error;  ///< kInput
+};
+
+struct ExportOutcome {
+  std::vector<ExportSummary> written;  ///< at least one
+  std::vector<ImpossibleExport> impossible;
+};
+
+/// Formats that are impossible do not keep the others from being written; what was there of them
+/// stays. kInput errors for options out of range, no categories, no frames, an empty training
+/// split, or no format that is possible; kCorrupt errors name up to ten frames that are not as they
+/// were written. Nothing is written then, and exports that were there stay.
+Result<ExportOutcome> run_export(const Dataset& dataset,
+                                 const std::vector<const FormatEntry*>& formats,
+                                 const ExportOptions& options);
 
 }  // namespace seedframe

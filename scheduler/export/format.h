@@ -1,7 +1,10 @@
 // The interface of an export format. What all formats have in common is in export_run.h.
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,7 +12,6 @@
 #include "base/error.h"
 #include "export/dataset.h"
 #include "export/document.h"
-#include "export/export_folder.h"
 #include "export/export_frame.h"
 #include "export/export_options.h"
 #include "export/frame_record.h"
@@ -30,6 +32,14 @@ struct ExportSummary {
   std::int64_t frames = 0;
   std::int64_t reused = 0;  ///< frames taken over from the export that was there
   std::vector<SplitSummary> splits;
+  std::set<std::filesystem::path> folders;  ///< that hold files of frames
+  std::vector<std::string> warnings;
+};
+
+/// What of an export belongs to no frame. Paths are relative to its folder.
+struct CommonPart {
+  std::map<std::string, std::string> files;    ///< bytes by path
+  std::vector<std::filesystem::path> folders;  ///< that are there even when nothing is in them
   std::vector<std::string> warnings;
 };
 
@@ -47,21 +57,17 @@ class ExportFormat {
   /// Whether a frame's record says all there is about it; false: every frame is encoded each time.
   virtual bool reusable() const { return true; }
 
-  /// Whether finish() writes a file of this path.
-  virtual bool is_common_file(const std::string& path) const = 0;
-
+  /// A kInput error for a frame that the format cannot hold: then there is no export in it.
   virtual Result<FrameRecord> encode(const ExportFrame& frame) const = 0;
-  /// Writes what belongs to no frame, after all are written.
-  virtual Status finish(ExportFolder& folder, ExportSummary& summary) const = 0;
+  /// After all frames were encoded, taken over or compared.
+  virtual Result<CommonPart> common_part(const ExportSummary&) const { return CommonPart{}; }
+  /// Whether programs that train on an export leave a file of this path in it.
+  virtual bool is_left_by_trainers(const std::string&) const { return false; }
 
   /// Decodes what was written of a frame and compares it with the frame. Empty when all is equal.
   /// Images that are placed as they are, and names, have been compared already.
   virtual std::vector<std::string> differences(const ExportFrame& frame,
                                                const WrittenFrame& written) const = 0;
-  /// The same for what belongs to no frame, after all frames were compared.
-  virtual std::vector<std::string> differences_at_end(const std::filesystem::path&) const {
-    return {};
-  }
 };
 
 struct FormatEntry {

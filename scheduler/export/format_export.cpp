@@ -96,7 +96,15 @@ Status FormatExport::append(const CommittedFrame& frame, std::int64_t ordinal,
   ++split.images;
   split.background_images += at(record.counts, Count::kAnnotations) == 0;
   for (std::size_t i = 0; i < split.counts.size(); ++i) split.counts[i] += record.counts[i];
+  for (const IndexEntry::File& file : entry.files) {
+    summary_.folders.insert(fs::path(file.path).parent_path());
+  }
   return {};
+}
+
+void FormatExport::give_up(Error why) {
+  refusal_ = std::move(why);
+  given_up_ = true;
 }
 
 Status FormatExport::finish() {
@@ -109,7 +117,17 @@ Status FormatExport::finish() {
                 (folder_.partial() / kIndexFile).string());
   }
   marker_.frames = summary_.frames;
-  return format_->finish(folder_, summary_);
+  auto common = format_->common_part(summary_);
+  if (!common) return forward_error(common);
+  for (const fs::path& folder : common->folders) {
+    if (Status made = folder_.make_folder(folder); !made) return made;
+  }
+  for (const auto& [path, bytes] : common->files) {
+    if (Status written = folder_.write(path, bytes); !written) return written;
+  }
+  std::move(common->warnings.begin(), common->warnings.end(),
+            std::back_inserter(summary_.warnings));
+  return {};
 }
 
 Status FormatExport::commit() { return folder_.commit(marker_text(marker_)); }

@@ -1,6 +1,7 @@
 // One format's export while it is written: its files, documents and index.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -20,8 +21,8 @@
 namespace seedframe {
 
 /// begin, then for each frame take_earlier, reuse or an encoding, write_files and append; then
-/// finish and commit. take_earlier and append are called in the order of the frames; reuse and
-/// write_files from several threads.
+/// finish and commit. take_earlier, append and give_up are called in the order of the frames; reuse
+/// and write_files from several threads.
 class FormatExport {
  public:
   /// All but the folder must outlive it.
@@ -44,6 +45,11 @@ class FormatExport {
   /// Adds a frame, the `ordinal`th of its split, to the documents and the index.
   Status append(const CommittedFrame& frame, std::int64_t ordinal, const FrameRecord& record,
                 bool reused, IndexEntry entry);
+
+  /// The format cannot hold a frame: nothing more is to be done, and what was there stays.
+  void give_up(Error why);
+  /// Why there will be no export; none as long as all goes well.
+  const Error* refusal() const { return given_up_ ? &refusal_ : nullptr; }
 
   /// Everything but commit.
   Status finish();
@@ -71,6 +77,8 @@ class FormatExport {
   std::map<std::string, OpenDocument> documents_;
   std::ofstream index_;
   ExportSummary summary_;
+  std::atomic<bool> given_up_ = false;  ///< refusal_ is there, and stays
+  Error refusal_;
 };
 
 }  // namespace seedframe

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <set>
+#include <unordered_set>
 
 #include "base/files.h"
 #include "export/earlier_export.h"
@@ -38,6 +39,9 @@ class Verification {
         written_(std::move(written)),
         cursor_(dataset.frames()) {
     summary_.format = marker.format;
+    for (const SplitShare& split : marker.options.splits) {
+      shape_.splits.push_back({.split = split.name});
+    }
   }
 
   Result<VerifySummary> run(int workers) {
@@ -58,13 +62,31 @@ class Verification {
     if (!frame || !*frame) return nullptr;
     auto task = std::make_shared<VerifyTask>();
     task->frame = std::move(**frame);
-    task->part = written_.take(task->frame.index);
-    if (task->part) {
-      for (const IndexEntry::File& file : task->part->entry.files) {
-        listed_ += fs::exists(folder_ / file.path) ? 1 : 0;
-      }
-    }
+    task->part = take_part(task->frame.index);
     return task;
+  }
+
+  /// The part of a frame. Frames before it that the campaign does not have are kept for finish().
+  std::optional<EarlierExport::Part> take_part(std::int64_t frame) {
+    while (!ahead_ || ahead_->entry.frame < frame) {
+      if (ahead_) strangers_.push_back(ahead_->entry.frame);
+      ahead_ = written_.next();
+      if (!ahead_) return std::nullopt;
+      note_names(ahead_->entry);
+    }
+    if (ahead_->entry.frame != frame) return std::nullopt;
+    return std::exchange(ahead_, std::nullopt);
+  }
+
+  void note_names(const IndexEntry& entry) {
+    for (const IndexEntry::File& file : entry.files) {
+      files_of_frames_.insert(std::hash<std::string>()(file.path));
+      shape_.folders.insert(fs::path(file.path).parent_path());
+    }
+    for (const IndexEntry::Piece& piece : entry.pieces) documents_there_.insert(piece.document);
+    ++shape_.frames;
+    const auto split = static_cast<std::size_t>(entry.split);
+    if (split < shape_.splits.size()) ++shape_.splits[split].images;
   }
 
   Status compare(VerifyTask& task) const {
@@ -153,51 +175,57 @@ class Verification {
   }
 
   void finish() {
-    while (const auto rest = written_.next()) {
-      add_difference(
-          fmt::format("frame {} is in the export, and not in the campaign", rest->entry.frame));
+    static_cast<void>(take_part(std::numeric_limits<std::int64_t>::max()));
+    for (const std::int64_t frame : strangers_) {
+      add_difference(fmt::format("frame {} is in the export, and not in the campaign", frame));
     }
     written_.open_empty_documents();
     for (const std::string& name : written_.not_read_to_the_end()) {
       add_difference(name + " holds entries that belong to no frame, or cannot be read");
     }
-    for (const std::string& difference : format_.differences_at_end(folder_)) {
-      add_difference(difference);
+    auto common = format_.common_part(shape_);
+    if (!common) {
+      add_difference(common.error().message);
+      return;
     }
-    count_files();
-  }
-
-  /// Files that no frame and no document accounts for.
-  void count_files() {
-    std::int64_t found = 0;
-    std::int64_t documents = 0;
-    std::error_code error;
-    for (fs::recursive_directory_iterator entry(folder_, error), end; !error && entry != end;
-         entry.increment(error)) {
-      if (!entry->is_regular_file()) continue;
-      const std::string path = fs::relative(entry->path(), folder_).string();
-      const bool document = is_document(path);
-      documents += document;
-      const bool shared =
-          document || path == kMarkerFile || path == kIndexFile || format_.is_common_file(path);
-      if (!shared) ++found;
-    }
-    if (documents > written_.documents()) {
-      add_difference(
-          fmt::format("{} shared files belong to no frame", documents - written_.documents()));
-    }
-    if (found > listed_) {
-      add_difference(fmt::format("{} files belong to no frame", found - listed_));
-    }
-  }
-
-  bool is_document(const std::string& path) const {
-    for (const SplitShare& split : marker_.options.splits) {
-      for (const DocumentKind& kind : documents_) {
-        if (is_document_of(path, kind, split.name)) return true;
+    common->files[kMarkerFile] = marker_text(
+        {marker_.format, dataset_.name, dataset_hash(dataset_), shape_.frames, marker_.options});
+    for (const auto& [path, bytes] : common->files) {
+      const auto found = read_file(folder_ / path);
+      if (!found || *found != bytes) {
+        add_difference(found ? path + " is not what it should be" : found.error().message);
       }
     }
-    return false;
+    for (const fs::path& folder : common->folders) {
+      if (!fs::is_directory(folder_ / folder)) {
+        add_difference(fmt::format("the folder {} is missing", folder.string()));
+      }
+    }
+    name_strange_files(*common);
+  }
+
+  /// Files that no frame, no document and no format accounts for.
+  void name_strange_files(const CommonPart& common) {
+    for (const DocumentKind& kind : documents_) {
+      if (kind.scope != DocumentKind::Scope::kSplit) continue;
+      for (const SplitShare& split : marker_.options.splits) {
+        documents_there_.insert(kind.path_of(split.name, 0, 0));
+      }
+    }
+    std::error_code error;
+    std::vector<std::string> strange;
+    for (fs::recursive_directory_iterator entry(folder_, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (entry->is_directory()) continue;
+      std::string path = fs::relative(entry->path(), folder_).string();
+      const bool known = path == kIndexFile || common.files.count(path) > 0 ||
+                         documents_there_.count(path) > 0 ||
+                         files_of_frames_.count(std::hash<std::string>()(path)) > 0 ||
+                         format_.is_left_by_trainers(path);
+      if (!known) strange.push_back(std::move(path));
+    }
+    std::sort(strange.begin(), strange.end());
+    for (const std::string& path : strange) add_difference(path + " belongs to no frame");
   }
 
   void add_difference(std::string text) {
@@ -216,8 +244,12 @@ class Verification {
   FrameCursor cursor_;
   std::atomic<bool> failed_ = false;
   std::mutex outcome_mutex_;
-  Status outcome_;  ///< of reading the source
-  std::int64_t listed_ = 0;
+  Status outcome_;                                   ///< of reading the source
+  std::optional<EarlierExport::Part> ahead_;         ///< read, and not asked for yet
+  std::vector<std::int64_t> strangers_;              ///< frames that the campaign does not have
+  std::unordered_set<std::size_t> files_of_frames_;  ///< hashes of their paths
+  std::set<std::string> documents_there_;
+  ExportSummary shape_;  ///< what common_part asks for: images of splits, folders
   VerifySummary summary_;
 };
 

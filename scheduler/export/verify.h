@@ -21,10 +21,11 @@ struct VerifySummary {
 };
 
 /// Decodes every frame's part of the export in `folder`, by the one of `formats` that it was made
-/// with, with the same options, and compares masks, boxes, classes and images with the source. What
-/// the export has beside that is a difference too: files that belong to nothing, entries that no
-/// frame has, missing frames. kCorrupt errors for a folder that is not an export, or a source frame
-/// that is not as it was written.
+/// with, with the same options, and compares masks, boxes, classes and images with the source, and
+/// what belongs to no frame with what it should be. What the export has beside that is a difference
+/// too: files that belong to nothing, unless trainers are known to leave them there, entries that
+/// no frame has, missing frames. kCorrupt errors for a folder that is not an export, or a source
+/// frame that is not as it was written.
 Result<VerifySummary> verify_export(const Dataset& dataset, const FormatList& formats,
                                     const std::filesystem::path& folder, int workers);
 

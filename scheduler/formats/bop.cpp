@@ -105,13 +105,9 @@ class Bop : public ExportFormat {
     return folders;
   }
 
-  bool is_common_file(const std::string& path) const override {
-    return path == "models.json" || path.rfind("models/", 0) == 0;
-  }
-
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     FrameRecord record;
-    record.counts = frame.counts;
+    record.counts = count_instances(frame);
     const std::string scene = scene_path(frame);
     ScaledDepth depth;
     if (frame.loaded.depth) {
@@ -121,12 +117,13 @@ class Bop : public ExportFormat {
     if (dataset_.has_images) {
       record.placed.push_back(image_at(scene + "rgb/" + image_name(frame), frame));
     }
-    auto entries = entries_of(frame, depth);
+    const auto wholes = silhouettes(frame);
+    if (!wholes) return forward_error(wholes);
+    auto entries = entries_of(frame, *wholes, depth);
     if (!entries) return forward_error(entries);
     for (std::size_t i = 0; i < frame.instances.size(); ++i) {
-      const auto whole = whole_instance(frame.frame, frame.loaded, *frame.instances[i].label);
-      if (!whole) return forward_error(whole);
-      record.files.push_back({mask_path(frame, i, "mask/"), encode_png(mask_image(whole->mask))});
+      const Mask& whole = (*wholes)[i].mask;
+      record.files.push_back({mask_path(frame, i, "mask/"), encode_png(mask_image(whole))});
       record.files.push_back({mask_path(frame, i, "mask_visib/"),
                               encode_png(mask_image(visible(frame, frame.instances[i])))});
     }
@@ -134,12 +131,17 @@ class Bop : public ExportFormat {
     return record;
   }
 
-  Status finish(ExportFolder& folder, ExportSummary& summary) const override {
+  Result<CommonPart> common_part(const ExportSummary&) const override {
+    CommonPart common;
     if (!dataset_.has_depth) {
-      summary.warnings.emplace_back(
-          "the campaign has no depth (render: {depth: true}): bop was written without it");
+      common.warnings.emplace_back(
+          "the campaign has no depth (render: {passes: [depth]}): bop was written without it");
     }
-    return write_bop_models(dataset_.assets, folder);
+    const auto camera = camera_of_first_frame();
+    if (!camera) return forward_error(camera);
+    common.files["camera.json"] = readable_json(*camera);
+    add_bop_models(dataset_.assets, common);
+    return common;
   }
 
   std::vector<std::string> differences(const ExportFrame& frame,
@@ -152,7 +154,9 @@ class Bop : public ExportFormat {
       const auto png = decode_png16(written.file(path), path);
       if (!png || png->values != depth.units.values) found.push_back(path + " is another depth");
     }
-    const auto entries = entries_of(frame, depth);
+    const auto wholes = silhouettes(frame);
+    if (!wholes) return {wholes.error().message};
+    const auto entries = entries_of(frame, *wholes, depth);
     if (!entries) return {entries.error().message};
     bool same = entries->size() == written.chunks.size();
     for (std::size_t i = 0; same && i < entries->size(); ++i) {
@@ -160,10 +164,8 @@ class Bop : public ExportFormat {
     }
     if (!same) found.emplace_back("its entries in scene_*.json are others");
     for (std::size_t i = 0; i < frame.instances.size(); ++i) {
-      const auto whole = whole_instance(frame.frame, frame.loaded, *frame.instances[i].label);
-      if (!whole) return {whole.error().message};
       for (const auto& [path, mask] :
-           {std::pair(mask_path(frame, i, "mask/"), whole->mask),
+           {std::pair(mask_path(frame, i, "mask/"), (*wholes)[i].mask),
             std::pair(mask_path(frame, i, "mask_visib/"), visible(frame, frame.instances[i]))}) {
         const auto png = decode_png8(written.file(path), path);
         if (!png || png->values != mask_image(mask).values) {
@@ -183,6 +185,17 @@ class Bop : public ExportFormat {
   }
   static Mask visible(const ExportFrame& frame, const ExportInstance& instance) {
     return {frame.loaded.instance_ids, instance.label->id, instance.label->box};
+  }
+
+  /// Of the exported instances, in their order.
+  static Result<std::vector<ExportInstance>> silhouettes(const ExportFrame& frame) {
+    std::vector<ExportInstance> wholes;
+    for (const ExportInstance& instance : frame.instances) {
+      auto whole = whole_instance(frame.frame, frame.loaded, *instance.label);
+      if (!whole) return forward_error(whole);
+      wholes.push_back(std::move(*whole));
+    }
+    return wholes;
   }
 
   Result<int> object_id(const ExportFrame& frame, const InstanceLabel& label) const {
@@ -209,26 +222,26 @@ class Bop : public ExportFormat {
   }
 
   /// All entries of the frame in the documents; `depth` has no units when there is none.
-  Result<std::vector<Chunk>> entries_of(const ExportFrame& frame, const ScaledDepth& depth) const {
+  Result<std::vector<Chunk>> entries_of(const ExportFrame& frame,
+                                        const std::vector<ExportInstance>& wholes,
+                                        const ScaledDepth& depth) const {
     Json poses = Json::array();
     Json infos = Json::array();
     std::map<int, int> counts;
     std::vector<Chunk> annotations;
-    for (const ExportInstance& instance : frame.instances) {
-      const InstanceLabel& label = *instance.label;
+    for (const ExportInstance& whole : wholes) {
+      const InstanceLabel& label = *whole.label;
       if (Status rigid = check_rigid(frame, label); !rigid) return forward_error(rigid);
       const auto id = object_id(frame, label);
       if (!id) return forward_error(id);
-      const auto info = info_json(frame, label, depth);
-      if (!info) return forward_error(info);
-      ++counts[*id];
+      if (is_target(label)) ++counts[*id];
       const Pose& pose = label.amodal->pose;
       const Eigen::Vector3d t = opencv_axes() * pose.translation_m * kMillimetresPerMetre;
       poses.push_back({{"cam_R_m2c", matrix_json(opencv_axes() * pose.rotation)},
                        {"cam_t_m2c", {t.x(), t.y(), t.z()}},
                        {"obj_id", *id}});
-      infos.push_back(*info);
-      annotations.push_back({kCoco, kCocoAnnotations, coco_text(frame, label, *id)});
+      infos.push_back(info_json(whole, depth));
+      annotations.push_back({kCoco, kCocoAnnotations, coco_text(frame, whole, *id)});
     }
     const std::string key = fmt::format("\"{}\":", frame.frame.index);
     std::vector<Chunk> chunks = {{kCamera, 0, key + canonical_json(camera_json(frame, depth))},
@@ -246,6 +259,30 @@ class Bop : public ExportFormat {
     return chunks;
   }
 
+  /// As the toolkit chooses what is to be found, and what is ignored.
+  static bool is_target(const InstanceLabel& label) {
+    constexpr double kLeastVisible = 0.1;
+    return label.visible_fraction() >= kLeastVisible;
+  }
+
+  /// Each image has its own in scene_camera.json; this one is for readers that know a single
+  /// sensor.
+  Result<Json> camera_of_first_frame() const {
+    const auto frame = dataset_.frames()();
+    if (!frame) return forward_error(frame);
+    if (!*frame) return fail(ErrorKind::kInput, "bop's camera.json needs a frame, there is none");
+    const auto files = FrameReader::open(**frame, {.depth = dataset_.has_depth});
+    if (!files) return forward_error(files);
+    const auto loaded = files->load(dataset_.categories);
+    if (!loaded) return forward_error(loaded);
+    const FrameLabels& labels = loaded->labels;
+    Json camera = {{"width", labels.width},     {"height", labels.height},
+                   {"fx", labels.focal_px[0]},  {"fy", labels.focal_px[1]},
+                   {"cx", labels.center_px[0]}, {"cy", labels.center_px[1]}};
+    if (loaded->depth) camera["depth_scale"] = scaled_depth(*loaded->depth).scale_mm;
+    return camera;
+  }
+
   static Json camera_json(const ExportFrame& frame, const ScaledDepth& depth) {
     const FrameLabels& labels = frame.loaded.labels;
     return {{"cam_K",
@@ -254,25 +291,23 @@ class Bop : public ExportFormat {
             {"depth_scale", depth.scale_mm}};
   }
 
-  static Result<Json> info_json(const ExportFrame& frame, const InstanceLabel& label,
-                                const ScaledDepth& depth) {
+  static Json info_json(const ExportInstance& whole, const ScaledDepth& depth) {
+    const InstanceLabel& label = *whole.label;
     std::int64_t valid = 0;
     if (!depth.units.values.empty()) {
-      const auto whole = whole_instance(frame.frame, frame.loaded, label);
-      if (!whole) return forward_error(whole);
-      const PixelRect& box = whole->box();
+      const PixelRect& box = whole.box();
       for (int row = box.y; row < box.end_y(); ++row) {
         for (int column = box.x; column < box.end_x(); ++column) {
-          valid += whole->mask.at(row, column) && depth.units.at(row, column) != 0;
+          valid += whole.mask.at(row, column) && depth.units.at(row, column) != 0;
         }
       }
     }
-    return Json{{"bbox_obj", toolkit_box(label.amodal->box)},
-                {"bbox_visib", toolkit_box(label.box)},
-                {"px_count_all", label.amodal->area_px},
-                {"px_count_valid", valid},
-                {"px_count_visib", label.area_px},
-                {"visib_fract", label.visible_fraction()}};
+    return {{"bbox_obj", toolkit_box(label.amodal->box)},
+            {"bbox_visib", toolkit_box(label.box)},
+            {"px_count_all", label.amodal->area_px},
+            {"px_count_valid", valid},
+            {"px_count_visib", label.area_px},
+            {"visib_fract", label.visible_fraction()}};
   }
 
   static std::string coco_image_text(const ExportFrame& frame) {
@@ -283,13 +318,16 @@ class Bop : public ExportFormat {
                            {"width", labels.width}});
   }
 
-  static std::string coco_text(const ExportFrame& frame, const InstanceLabel& label, int object) {
-    const PixelRect& box = label.box;
-    const Mask mask(frame.loaded.instance_ids, label.id, box);
+  /// The visible mask, and the box of the silhouette: what the toolkit makes unless told otherwise.
+  static std::string coco_text(const ExportFrame& frame, const ExportInstance& whole, int object) {
+    const InstanceLabel& label = *whole.label;
+    const PixelRect& box = whole.box();
+    const Mask mask(frame.loaded.instance_ids, label.id, label.box);
     return fmt::format(
-        R"({{"area":{},"bbox":[{},{},{},{}],"category_id":{},"id":{},"ignore":false,"image_id":{},"iscrowd":0,"segmentation":{}}})",
-        label.area_px, box.x, box.y, box.width, box.height, object,
-        coco_annotation_id(frame.frame.index, label.id), frame.frame.index, coco_rle(mask));
+        R"({{"area":{},"bbox":[{},{},{},{}],"category_id":{},"height":{},"id":{},"ignore":{},"image_id":{},"iscrowd":0,"segmentation":{},"width":{}}})",
+        label.area_px, box.x, box.y, box.width, box.height, object, mask.image_height(),
+        coco_annotation_id(frame.frame.index, label.id), !is_target(label), frame.frame.index,
+        coco_rle(mask), mask.image_width());
   }
 
   const Dataset& dataset_;

@@ -1,11 +1,16 @@
 #include "formats/bop_models.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/canonical_json.h"
+#include "mesh/corner_normals.h"
 #include "mesh/mesh_diameter.h"
 
 namespace seedframe {
@@ -20,19 +25,57 @@ void append(std::string& bytes, T value) {
   std::memcpy(bytes.data() + end, &value, sizeof value);
 }
 
+using Coordinates = std::array<float, 3>;
+
+/// A vertex of the mesh once for each normal that it has: readers know one normal a vertex.
+struct ShadedMesh {
+  std::vector<std::pair<Coordinates, Coordinates>> vertices;  ///< position in metres, unit normal
+  std::vector<std::array<std::int32_t, 3>> triangles;
+};
+
+ShadedMesh shaded_mesh(const Mesh& mesh) {
+  const std::vector<Coordinates> normals =
+      corner_normals(mesh.positions, mesh.triangles, mesh.smooth_angle_rad);
+  ShadedMesh shaded;
+  std::vector<std::vector<std::pair<Coordinates, std::int32_t>>> copies(mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    std::array<std::int32_t, 3>& triangle = shaded.triangles.emplace_back();
+    for (std::size_t corner = 0; corner < triangle.size(); ++corner) {
+      const std::uint32_t vertex = mesh.triangles[i][corner];
+      auto& known = copies[vertex];
+      Coordinates normal = normals[3 * i + corner];
+      if (normal == Coordinates{}) {  // its triangles have no area, and nobody sees them
+        normal = known.empty() ? Coordinates{0.0F, 0.0F, 1.0F} : known.front().first;
+      }
+      auto copy = std::find_if(known.begin(), known.end(),
+                               [&](const auto& each) { return each.first == normal; });
+      if (copy == known.end()) {
+        known.emplace_back(normal, static_cast<std::int32_t>(shaded.vertices.size()));
+        shaded.vertices.emplace_back(mesh.positions[vertex], normal);
+        copy = std::prev(known.end());
+      }
+      triangle[corner] = copy->second;
+    }
+  }
+  return shaded;
+}
+
 std::string ply_of(const Mesh& mesh) {
+  const ShadedMesh shaded = shaded_mesh(mesh);
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
-      "y\nproperty float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      mesh.positions.size(), mesh.triangles.size());
-  for (const auto& position : mesh.positions) {
+      "y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\nelement face "
+      "{}\nproperty list uchar int vertex_indices\nend_header\n",
+      shaded.vertices.size(), shaded.triangles.size());
+  for (const auto& [position, normal] : shaded.vertices) {
     for (const float metres : position) {
       append(bytes, static_cast<float>(static_cast<double>(metres) * kMillimetresPerMetre));
     }
+    for (const float coordinate : normal) append(bytes, coordinate);
   }
-  for (const auto& triangle : mesh.triangles) {
+  for (const auto& triangle : shaded.triangles) {
     append(bytes, std::uint8_t{3});
-    for (const auto corner : triangle) append(bytes, static_cast<std::int32_t>(corner));
+    for (const std::int32_t corner : triangle) append(bytes, corner);
   }
   return bytes;
 }
@@ -60,21 +103,19 @@ std::map<std::string, int> bop_object_ids(const std::vector<OfferedAsset>& asset
   return ids;
 }
 
-Status write_bop_models(const std::vector<OfferedAsset>& assets, ExportFolder& folder) {
+void add_bop_models(const std::vector<OfferedAsset>& assets, CommonPart& common) {
   const std::map<std::string, int> ids = bop_object_ids(assets);
   Json infos = Json::object();
   Json names = Json::object();
   for (const OfferedAsset& offered : assets) {
     const Asset& asset = *offered.asset;
     const int id = ids.at(asset.name);
-    const std::string path = fmt::format("models/obj_{:06}.ply", id);
-    if (Status written = folder.write(path, ply_of(asset.mesh)); !written) return written;
+    common.files[fmt::format("models/obj_{:06}.ply", id)] = ply_of(asset.mesh);
     infos[std::to_string(id)] = info_of(asset.mesh);
     names[std::to_string(id)] = {{"asset", asset.name}, {"category", asset.category}};
   }
-  Status written = folder.write("models/models_info.json", readable_json(infos));
-  if (!written) return written;
-  return folder.write("models.json", readable_json(names));
+  common.files["models/models_info.json"] = readable_json(infos);
+  common.files["models.json"] = readable_json(names);
 }
 
 }  // namespace seedframe

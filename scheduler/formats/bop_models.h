@@ -7,7 +7,7 @@
 
 #include "assets/offered_asset.h"
 #include "base/error.h"
-#include "export/export_folder.h"
+#include "export/format.h"
 
 namespace seedframe {
 
@@ -16,7 +16,7 @@ inline constexpr double kMillimetresPerMetre = 1000.0;
 /// 1, 2, … for the assets by name.
 std::map<std::string, int> bop_object_ids(const std::vector<OfferedAsset>& assets);
 
-/// Writes models/ and models.json.
-Status write_bop_models(const std::vector<OfferedAsset>& assets, ExportFolder& folder);
+/// Adds models/ and models.json.
+void add_bop_models(const std::vector<OfferedAsset>& assets, CommonPart& common);
 
 }  // namespace seedframe

@@ -1,5 +1,6 @@
 #include "formats/coco.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "annotate/mask.h"
@@ -14,6 +15,14 @@ namespace seedframe {
 namespace {
 
 enum class Kind { kRle, kPolygon, kKeypoints };
+
+/// COCO's whole numbers are the pixels' centres. Readers take what is below 0 for a mistake, so a
+/// point in the first half of the first pixel is put on its centre.
+double pixel_index(double px, int side) {
+  constexpr double kHalf = 0.5;
+  const double index = std::clamp(px - kHalf, 0.0, side - kHalf);
+  return std::round(index * 100.0) / 100.0;
+}
 
 std::string polygons_text(const std::vector<Polygon>& polygons) {
   std::string text = "[";
@@ -57,7 +66,7 @@ class CocoInstances : public ExportFormat {
   std::vector<DocumentKind> documents() const override {
     Json categories = coco_categories(dataset_);
     if (kind_ == Kind::kKeypoints) add_keypoint_names(categories);
-    const char* path = kind_ == Kind::kKeypoints ? "annotations/keypoints_{split}.json"
+    const char* path = kind_ == Kind::kKeypoints ? "annotations/person_keypoints_{split}.json"
                                                  : "annotations/instances_{split}.json";
     return {coco_document(path, DocumentKind::Scope::kSplit, dataset_, categories)};
   }
@@ -70,16 +79,13 @@ class CocoInstances : public ExportFormat {
     return folders;
   }
 
-  bool is_common_file(const std::string&) const override { return false; }
-
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     FrameRecord record;
-    record.counts = frame.counts;
-    at(record.counts, Count::kAnnotations) = 0;
+    record.counts =
+        count_instances(frame, [this](const InstanceLabel& label) { return wanted(label); });
     record.chunks.push_back({0, kCocoImages, coco_image(frame, image_name(frame))});
     for (const ExportInstance& instance : frame.instances) {
-      if (!wanted(instance)) continue;
-      ++at(record.counts, Count::kAnnotations);
+      if (!wanted(*instance.label)) continue;
       if (kind_ != Kind::kKeypoints) {
         record.chunks.push_back(
             {0, kCocoAnnotations, coco_annotation(frame, instance, mask(instance))});
@@ -97,8 +103,6 @@ class CocoInstances : public ExportFormat {
     return record;
   }
 
-  Status finish(ExportFolder&, ExportSummary&) const override { return {}; }
-
   std::vector<std::string> differences(const ExportFrame& frame,
                                        const WrittenFrame& written) const override {
     std::vector<std::string> found;
@@ -108,7 +112,7 @@ class CocoInstances : public ExportFormat {
       found.emplace_back("the entry of the image is another");
     }
     for (const ExportInstance& instance : frame.instances) {
-      if (!wanted(instance)) continue;
+      if (!wanted(*instance.label)) continue;
       const auto annotation =
           parse_json(next < written.chunks.size() ? written.chunks[next++].text : "", "");
       const std::string difference =
@@ -122,11 +126,11 @@ class CocoInstances : public ExportFormat {
   }
 
  private:
-  bool wanted(const ExportInstance& instance) const {
-    return kind_ != Kind::kKeypoints || !points_of(instance).names.empty();
+  bool wanted(const InstanceLabel& label) const {
+    return kind_ != Kind::kKeypoints || !points_of(label).names.empty();
   }
-  const ClassKeypoints& points_of(const ExportInstance& instance) const {
-    return dataset_.keypoints[static_cast<std::size_t>(instance.label->category) - 1];
+  const ClassKeypoints& points_of(const InstanceLabel& label) const {
+    return dataset_.keypoints[static_cast<std::size_t>(label.category) - 1];
   }
 
   std::string mask(const ExportInstance& instance) const {
@@ -137,16 +141,16 @@ class CocoInstances : public ExportFormat {
   }
 
   Result<std::string> keypoints_of(const ExportFrame& frame, const ExportInstance& instance) const {
-    const auto rows = keypoint_rows(frame.frame, *instance.label, points_of(instance));
+    const auto rows = keypoint_rows(frame.frame, *instance.label, points_of(*instance.label));
     if (!rows) return forward_error(rows);
-    constexpr double kHalf = 0.5;  // COCO's whole numbers are the pixels' centres
+    const std::array<int, 2> sides = {frame.loaded.labels.width, frame.loaded.labels.height};
     std::string text = "\"keypoints\":[";
     int labelled = 0;
     for (const KeypointRow& row : *rows) {
       const bool known = row.visibility != Visibility::kOutside;
       labelled += known;
-      for (const double coordinate : row.px) {
-        append_canonical(text, known ? std::round((coordinate - kHalf) * 100.0) / 100.0 : 0.0);
+      for (std::size_t axis = 0; axis < sides.size(); ++axis) {
+        append_canonical(text, known ? pixel_index(row.px[axis], sides[axis]) : 0.0);
         text += ',';
       }
       fmt::format_to(std::back_inserter(text), "{},", static_cast<int>(row.visibility));

@@ -1,5 +1,8 @@
 #include "formats/patches.h"
 
+#include <algorithm>
+#include <map>
+
 #include "formats/class_folders.h"
 #include "image/crop.h"
 #include "image/png_file.h"
@@ -17,34 +20,60 @@ class Patches : public ExportFormat {
 
   std::vector<std::filesystem::path> folders() const override {
     std::vector<std::filesystem::path> folders;
-    for (const SplitShare& split : options_.splits) {
-      for (const std::string& folder : folders_) {
-        folders.push_back(std::filesystem::path(split.name) / folder);
-      }
-    }
+    for (const SplitShare& split : options_.splits) folders.emplace_back(split.name);
     return folders;
   }
 
-  bool is_common_file(const std::string& path) const override { return path == "classes.json"; }
-
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     FrameRecord record;
-    record.counts = frame.counts;
+    const int target = frame.loaded.labels.target;
+    record.counts = count_instances(
+        frame, [target](const InstanceLabel& label) { return target == 0 || label.id == target; });
     for (const ExportInstance* instance : shown(frame)) {
       const auto pixels = patch(frame, *instance);
       if (!pixels) return forward_error(pixels);
       record.files.push_back({path(frame, *instance), encode_png(*pixels)});
     }
-    at(record.counts, Count::kAnnotations) = static_cast<std::int64_t>(record.files.size());
     return record;
   }
 
-  Status finish(ExportFolder& folder, ExportSummary&) const override {
+  /// ImageFolder refuses a folder without images, and numbers the classes by the folders that are
+  /// there: a class has one in every split if it has a patch in any.
+  Result<CommonPart> common_part(const ExportSummary& summary) const override {
+    CommonPart common;
     Json classes = Json::array();
+    std::string nowhere;
+    std::map<std::string, std::string> empty;  // names of classes by split
+    const auto add_name = [](std::string& list, const std::string& name) {
+      list += fmt::format("{}'{}'", list.empty() ? "" : ", ", name);
+    };
     for (std::size_t k = 0; k < folders_.size(); ++k) {
-      classes.push_back({{"folder", folders_[k]}, {"name", dataset_.categories[k]}});
+      const std::string& name = dataset_.categories[k];
+      classes.push_back({{"folder", folders_[k]}, {"name", name}});
+      const auto holds = [&](const SplitSummary& split) {
+        return summary.folders.count(std::filesystem::path(split.split) / folders_[k]) > 0;
+      };
+      if (std::none_of(summary.splits.begin(), summary.splits.end(), holds)) {
+        add_name(nowhere, name);
+        continue;
+      }
+      for (const SplitSummary& split : summary.splits) {
+        common.folders.push_back(std::filesystem::path(split.split) / folders_[k]);
+        if (!holds(split)) add_name(empty[split.split], name);
+      }
     }
-    return folder.write("classes.json", readable_json(classes));
+    if (!nowhere.empty()) {
+      common.warnings.push_back(
+          fmt::format("patches: no patch shows {}: such classes have no folder", nowhere));
+    }
+    for (const auto& [split, names] : empty) {
+      common.warnings.push_back(
+          fmt::format("patches: no patch of {} shows {}: torchvision's ImageFolder loads it with "
+                      "allow_empty=True",
+                      split, names));
+    }
+    common.files["classes.json"] = readable_json(classes);
+    return common;
   }
 
   std::vector<std::string> differences(const ExportFrame& frame,

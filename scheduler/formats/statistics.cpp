@@ -6,8 +6,6 @@
 #include <cmath>
 #include <mutex>
 
-#include "base/files.h"
-
 namespace seedframe {
 namespace {
 
@@ -100,8 +98,6 @@ class Statistics : public ExportFormat {
 
   bool reusable() const override { return false; }  // a frame's part is not kept
 
-  bool is_common_file(const std::string& path) const override { return path == "statistics.json"; }
-
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     const std::lock_guard lock(mutex_);
     SplitNumbers& split = splits_.at(frame.split);
@@ -125,23 +121,20 @@ class Statistics : public ExportFormat {
       }
     }
     FrameRecord record;
-    record.counts = frame.counts;
+    record.counts = count_instances(frame);
     return record;
   }
 
-  Status finish(ExportFolder& folder, ExportSummary&) const override {
-    return folder.write("statistics.json", text());
+  Result<CommonPart> common_part(const ExportSummary&) const override {
+    CommonPart common;
+    common.files["statistics.json"] = text();
+    return common;
   }
 
   std::vector<std::string> differences(const ExportFrame& frame,
                                        const WrittenFrame&) const override {
-    static_cast<void>(encode(frame));  // compared as a whole, at the end
+    static_cast<void>(encode(frame));  // compared as a whole, by common_part
     return {};
-  }
-  std::vector<std::string> differences_at_end(const std::filesystem::path& folder) const override {
-    const auto written = read_file(folder / "statistics.json");
-    if (written && *written == text()) return {};
-    return {"statistics.json has other numbers"};
   }
 
  private:

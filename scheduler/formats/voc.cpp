@@ -107,10 +107,6 @@ class Voc : public ExportFormat {
     return lists;
   }
 
-  bool is_common_file(const std::string& path) const override {
-    return path == in_root("labelmap.txt");
-  }
-
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     if (frame.instances.size() > kMostIndices) {
       return fail(ErrorKind::kInput,
@@ -119,7 +115,7 @@ class Voc : public ExportFormat {
                   frame.frame.index, frame.instances.size(), kMostIndices);
     }
     FrameRecord record;
-    record.counts = frame.counts;
+    record.counts = count_instances(frame);
     record.files.push_back({xml_path(frame), xml_text(dataset_, frame)});
     for (const bool objects : {false, true}) {
       record.files.push_back(
@@ -132,13 +128,15 @@ class Voc : public ExportFormat {
     return record;
   }
 
-  Status finish(ExportFolder& folder, ExportSummary&) const override {
+  Result<CommonPart> common_part(const ExportSummary&) const override {
     std::string map = "background:0,0,0::\n";
     for (std::size_t k = 0; k < dataset_.categories.size(); ++k) {
       const auto [red, green, blue] = voc_color(k + 1);
       map += fmt::format("{}:{},{},{}::\n", dataset_.categories[k], red, green, blue);
     }
-    return folder.write(in_root("labelmap.txt"), map);
+    CommonPart common;
+    common.files[in_root("labelmap.txt")] = std::move(map);
+    return common;
   }
 
   std::vector<std::string> differences(const ExportFrame& frame,

@@ -26,11 +26,9 @@ class WebDataset : public ExportFormat {
              .separator = {}}};
   }
 
-  bool is_common_file(const std::string&) const override { return false; }
-
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     FrameRecord record;
-    record.counts = frame.counts;
+    record.counts = count_instances(frame);
     std::string sample;
     const auto add = [&](const std::string& suffix, std::string_view content) -> Status {
       const auto member = tar_member(frame.stem + suffix, content);
@@ -53,8 +51,6 @@ class WebDataset : public ExportFormat {
     record.chunks.push_back({0, 0, std::move(sample)});
     return record;
   }
-
-  Status finish(ExportFolder&, ExportSummary&) const override { return {}; }
 
   std::vector<std::string> differences(const ExportFrame& frame,
                                        const WrittenFrame& written) const override {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <set>
-#include <tuple>
 
 #include "annotate/mask.h"
 #include "annotate/polygon.h"
@@ -30,18 +30,6 @@ void append_box(std::string& row, const PixelRect& box, const FrameLabels& frame
   append_coordinate(row, box.y + box.height / 2.0, frame.height);
   append_coordinate(row, box.width, frame.width);
   append_coordinate(row, box.height, frame.height);
-}
-
-/// Rows that loaders take for a repetition of an earlier one: the same class and the same box.
-std::int64_t count_duplicates(const ExportFrame& frame) {
-  std::set<std::tuple<int, int, int, int, int>> seen;
-  std::int64_t duplicates = 0;
-  for (const ExportInstance& instance : frame.instances) {
-    const PixelRect& box = instance.box();
-    duplicates +=
-        !seen.emplace(instance.label->category, box.x, box.y, box.width, box.height).second;
-  }
-  return duplicates;
 }
 
 Status check_sides(const ExportFrame& frame) {
@@ -78,6 +66,27 @@ std::optional<std::vector<double>> numbers_of(std::string_view row, int category
   return numbers;
 }
 
+/// What loaders compare of a row to find repetitions: all of it, or of a row of points its class
+/// and the box around them.
+std::vector<float> compared_numbers(std::string_view row, bool points) {
+  const int category = std::atoi(std::string(row.substr(0, row.find(' '))).c_str());
+  const std::vector<double> numbers = numbers_of(row, category).value_or(std::vector<double>());
+  std::vector<float> compared = {static_cast<float>(category)};
+  if (!points) {
+    compared.insert(compared.end(), numbers.begin(), numbers.end());
+    return compared;
+  }
+  for (const std::size_t axis : {0, 1}) {
+    auto [low, high] = std::pair(1.0F, 0.0F);
+    for (std::size_t i = axis; i < numbers.size(); i += 2) {
+      low = std::min(low, static_cast<float>(numbers[i]));
+      high = std::max(high, static_cast<float>(numbers[i]));
+    }
+    compared.insert(compared.end(), {low, high});
+  }
+  return compared;
+}
+
 class Yolo : public ExportFormat {
  public:
   Yolo(const Dataset& dataset, const ExportOptions& options, Task task)
@@ -98,17 +107,18 @@ class Yolo : public ExportFormat {
     return folders;
   }
 
-  bool is_common_file(const std::string& path) const override { return path == "data.yaml"; }
-
   Result<FrameRecord> encode(const ExportFrame& frame) const override {
     if (Status large = check_sides(frame); !large) return forward_error(large);
     FrameRecord record;
-    record.counts = frame.counts;
-    at(record.counts, Count::kDuplicateRows) = count_duplicates(frame);
+    record.counts = count_instances(frame);
+    std::set<std::vector<float>> seen;
     std::string rows;  // stays empty for a background image, whose label file must exist
     for (const ExportInstance& instance : frame.instances) {
       auto row = row_of(frame, instance, record.counts);
       if (!row) return forward_error(row);
+      const bool points = task_ == Task::kSegment || task_ == Task::kObb;
+      at(record.counts, Count::kDuplicateRows) +=
+          !seen.insert(compared_numbers(*row, points)).second;
       rows += *row;
       rows += '\n';
     }
@@ -119,16 +129,25 @@ class Yolo : public ExportFormat {
     return record;
   }
 
-  Status finish(ExportFolder& folder, ExportSummary& summary) const override {
+  Result<CommonPart> common_part(const ExportSummary& summary) const override {
+    CommonPart common;
     for (const SplitSummary& split : summary.splits) {
       const std::int64_t merged = at(split.counts, Count::kDuplicateRows);
       if (merged == 0) continue;
-      summary.warnings.push_back(
-          fmt::format("{}: {} instances have the class and the box of another instance of their "
+      common.warnings.push_back(
+          fmt::format("{}: {} instances have the class and the {} of another instance of their "
                       "image; loaders merge such rows",
-                      split.split, merged));
+                      split.split, merged, task_ == Task::kPose ? "box and keypoints" : "box"));
     }
-    return folder.write("data.yaml", data_yaml(summary));
+    common.files["data.yaml"] = data_yaml(summary, Reader::kAny);
+    common.files["data_with_nc.yaml"] = data_yaml(summary, Reader::kCountsClasses);
+    return common;
+  }
+
+  /// What ultralytics and YOLOv5 keep beside the files that they have read.
+  bool is_left_by_trainers(const std::string& path) const override {
+    return (path.starts_with("labels/") && path.ends_with(".cache")) ||
+           (path.starts_with("images/") && path.ends_with(".npy"));
   }
 
   std::vector<std::string> differences(const ExportFrame& frame,
@@ -213,8 +232,12 @@ class Yolo : public ExportFormat {
     return {};
   }
 
+  /// CVAT takes every key that it does not know for a split, among them `nc` and `kpt_names`;
+  /// YOLOv6 and YOLOv7 ask for `nc`.
+  enum class Reader { kAny, kCountsClasses };
+
   /// Paths are relative to the yaml's own folder, as loaders take them when `path` is left out.
-  std::string data_yaml(const ExportSummary& summary) const {
+  std::string data_yaml(const ExportSummary& summary, Reader reader) const {
     std::string yaml = "train: images/train\n";
     // Loaders require `val`. Without validation images it names the training images.
     std::string val = "train";
@@ -225,15 +248,21 @@ class Yolo : public ExportFormat {
     for (const SplitSummary& split : summary.splits) {
       if (split.split == "test") yaml += "test: images/test\n";
     }
-    yaml += fmt::format("nc: {}\nnames:\n", dataset_.categories.size());
-    for (std::size_t i = 0; i < dataset_.categories.size(); ++i) {
-      // A JSON string is a YAML string, whatever it holds ("no" would be a boolean without quotes).
-      yaml += fmt::format("  {}: {}\n", i, Json(dataset_.categories[i]).dump());
+    // A JSON string is a YAML string, whatever it holds ("no" would be a boolean without quotes).
+    if (reader == Reader::kCountsClasses) {
+      yaml += fmt::format("nc: {}\nnames: {}\n", dataset_.categories.size(),
+                          Json(dataset_.categories).dump());
+    } else {
+      yaml += "names:\n";
+      for (std::size_t i = 0; i < dataset_.categories.size(); ++i) {
+        yaml += fmt::format("  {}: {}\n", i, Json(dataset_.categories[i]).dump());
+      }
     }
     if (task_ != Task::kPose) return yaml;
     yaml += fmt::format("kpt_shape: [{}, 3]\n", points_);
     const std::vector<int> flipped = flip_indices();
     if (!flipped.empty()) yaml += fmt::format("flip_idx: {}\n", Json(flipped).dump());
+    if (reader == Reader::kAny) return yaml;
     yaml += "kpt_names:\n";
     for (std::size_t i = 0; i < dataset_.categories.size(); ++i) {
       std::vector<std::string> names = dataset_.keypoints[i].names;

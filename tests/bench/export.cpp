@@ -231,17 +231,17 @@ int measure_stream(const fs::path& folder, std::int64_t count,
   Json runs = Json::array();
   for (int run = 0; run < 2; ++run) {  // the second takes over what the first has written
     const auto start = std::chrono::steady_clock::now();
-    const auto summaries = run_export(dataset, formats, options);
+    const auto outcome = run_export(dataset, formats, options);
     const double seconds = seconds_since(start);
-    if (!summaries) {
-      std::fprintf(stderr, "%s\n", summaries.error().message.c_str());
+    if (!outcome) {
+      std::fprintf(stderr, "%s\n", outcome.error().message.c_str());
       return 1;
     }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     runs.push_back({{"seconds", seconds},
-                    {"frames", summaries->front().frames},
-                    {"reused", summaries->front().reused},
+                    {"frames", outcome->written.front().frames},
+                    {"reused", outcome->written.front().reused},
                     {"peak_kib", usage.ru_maxrss}});
   }
   std::printf("%s\n", runs.dump().c_str());

@@ -263,5 +263,63 @@ TEST_P(EveryFormat, ReadsItsOptionsBackFromTheMarker) {
   EXPECT_EQ(verified().differences, 0);
 }
 
+class SeveralFormats : public ::testing::Test {
+ protected:
+  Result<ExportOutcome> run(const std::vector<std::string>& names) {
+    std::vector<const FormatEntry*> formats;
+    for (const std::string& name : names) formats.push_back(*find_format(export_formats(), name));
+    return run_export(campaign_.dataset(), formats, {.output = output_, .workers = 3});
+  }
+
+  ScratchFolder scratch_;
+  SyntheticDataset campaign_{scratch_.path() / "campaign"};
+  fs::path output_ = scratch_.path() / "out";
+};
+
+TEST_F(SeveralFormats, AreWrittenBesideOneThatCannotHoldTheDataset) {
+  campaign_.dataset().categories[3] = "a:b";
+  campaign_.add_ten_frames();
+  const auto outcome = run({"voc", "coco", "yolo-detect"});
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_EQ(outcome->written.size(), 2U);
+  EXPECT_EQ(outcome->written[0].frames, 10);
+  ASSERT_EQ(outcome->impossible.size(), 1U);
+  EXPECT_EQ(outcome->impossible[0].format, "voc");
+  EXPECT_THAT(outcome->impossible[0].error.message, HasSubstr("'a:b'"));
+  EXPECT_TRUE(fs::exists(output_ / "coco/seedframe.json"));
+  EXPECT_FALSE(fs::exists(output_ / "voc"));
+}
+
+TEST_F(SeveralFormats, AreWrittenBesideOneThatCannotHoldAFrame) {
+  campaign_.add_ten_frames();
+  ASSERT_TRUE(run({"yolo-detect", "coco"}));
+  const auto before = files_below(output_ / "yolo-detect");
+  IdImage low(64, 9);
+  low.at(4, 4) = 3;
+  campaign_.add_frame(12, 6, low);
+  campaign_.add_frame(13, 6, SyntheticDataset::discs(13));
+  const auto outcome = run({"yolo-detect", "coco"});
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  ASSERT_EQ(outcome->written.size(), 1U);
+  EXPECT_EQ(outcome->written[0].format, "coco");
+  EXPECT_EQ(outcome->written[0].frames, 12);
+  ASSERT_EQ(outcome->impossible.size(), 1U);
+  EXPECT_THAT(outcome->impossible[0].error.message, HasSubstr("frame 12: YOLO loaders refuse"));
+  EXPECT_EQ(files_below(output_ / "yolo-detect"), before);
+  EXPECT_EQ(std::distance(fs::directory_iterator(output_), {}), 2);  // nothing beside them
+}
+
+TEST_F(SeveralFormats, AreAllNamedWhenNoneIsPossible) {
+  IdImage low(64, 9);
+  low.at(4, 4) = 3;
+  campaign_.add_frame(6, 0, low);
+  const auto outcome = run({"yolo-detect", "yolo-obb"});
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(outcome.error().message, HasSubstr("yolo-detect: frame 6"));
+  EXPECT_THAT(outcome.error().message, HasSubstr("yolo-obb: frame 6"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(output_), {}), 0);
+}
+
 }  // namespace
 }  // namespace seedframe

@@ -212,9 +212,9 @@ inline Result<ExportSummary> export_one(const Dataset& dataset, const std::strin
                                         const ExportOptions& options) {
   const auto entry = find_format(export_formats(), format);
   if (!entry) return forward_error(entry);
-  auto summaries = run_export(dataset, {*entry}, options);
-  if (!summaries) return forward_error(summaries);
-  return std::move(summaries->front());
+  auto outcome = run_export(dataset, {*entry}, options);
+  if (!outcome) return forward_error(outcome);
+  return std::move(outcome->written.front());
 }
 
 }  // namespace seedframe

@@ -151,6 +151,72 @@ TEST_P(ExportCoco, LeavesOutAndCountsSmallInstances) {
   EXPECT_EQ(read_coco(summary->folder).at("annotations").size(), 2U);
 }
 
+class ExportCocoKinds : public ::testing::Test {
+ protected:
+  Json read(const ExportSummary& summary, const std::string& name) const {
+    return *parse_json(*read_file(summary.folder / "annotations" / name), name);
+  }
+  ScratchFolder scratch_;
+  SyntheticDataset campaign_{scratch_.path() / "campaign"};
+  ExportOptions options_{.output = scratch_.path() / "out"};
+};
+
+TEST_F(ExportCocoKinds, KeypointsHaveTheNameThatImportersLookForAndLieInTheImage) {
+  IdImage ids(16, 10);
+  for (int column = 0; column < 4; ++column) ids.at(0, column) = 3;
+  ids.at(5, 5) = 2;  // a nut, which has no keypoints
+  campaign_.add_frame(0, 0, ids);
+  const fs::path path = campaign_.frame_folder(0) / frame_files::kLabels;
+  Json labels = *parse_json(*read_file(path), "labels");
+  for (Json& instance : labels["instances"]) {
+    if (instance["id"] != 3) continue;
+    instance["keypoints"][0]["px"] = {0.25, 0.0};
+    instance["keypoints"][1]["px"] = {15.9999, 9.75};
+  }
+  ASSERT_TRUE(write_quickly(path, readable_json(labels)));
+  campaign_.write_manifest(campaign_.frames()[0]);
+  options_.min_pixels = 2;
+  const auto summary = export_one(campaign_.dataset(), "coco-keypoints", options_);
+  ASSERT_TRUE(summary) << summary.error().message;
+  const Json coco = read(*summary, "person_keypoints_train.json");
+  ASSERT_EQ(coco.at("annotations").size(), 1U);
+  EXPECT_EQ(coco["annotations"][0]["keypoints"], Json({0, 0, 2, 15.5, 9.25, 1}));
+  EXPECT_EQ(at(summary->splits[0].counts, Count::kTooSmall), 0) << "the nut would not be there";
+}
+
+TEST_F(ExportCocoKinds, PanopticBackgroundIsStuffAndWhatIsLeftOutIsVoid) {
+  IdImage ids(4, 2);
+  ids.at(0, 0) = ids.at(0, 1) = 3;
+  ids.at(1, 3) = 40;  // left out as too small
+  ids.at(1, 0) = 4;   // a distractor
+  campaign_.dataset().categories = {"bolt", "no", "gear", "background"};
+  campaign_.add_frame(41, 0, ids);
+  options_.min_pixels = 2;
+  const auto summary = export_one(campaign_.dataset(), "coco-panoptic", options_);
+  ASSERT_TRUE(summary) << summary.error().message;
+  const Json coco = read(*summary, "panoptic_train.json");
+  const Json& stuff = coco["categories"].back();
+  EXPECT_EQ(stuff["id"], 5);
+  EXPECT_EQ(stuff["isthing"], 0);
+  EXPECT_EQ(stuff["name"], "background~5");  // a class is called background
+  const Json& segments = coco["annotations"][0]["segments_info"];
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[1], Json({{"id", 65536},
+                               {"category_id", 5},
+                               {"area", 5},
+                               {"bbox", {0, 0, 4, 2}},
+                               {"iscrowd", 0}}));
+  const auto png =
+      decode_png8(*read_file(summary->folder / "annotations/panoptic_train/000041.png"), "");
+  ASSERT_TRUE(png);
+  EXPECT_EQ(png->values, (std::vector<std::uint8_t>{3, 0, 0, 3, 0, 0, 0, 0, 1, 0, 0, 1,  //
+                                                    0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 0}));
+  // As detectron2 looks for the image; its content is the campaign's.
+  EXPECT_EQ(coco["images"][0]["file_name"], "000041.jpg");
+  EXPECT_EQ(*read_file(summary->folder / "images/train/000041.jpg"),
+            *read_file(campaign_.frame_folder(41) / "image.png"));
+}
+
 TEST(CocoEntries, ArePinned) {
   const ScratchFolder scratch;
   SyntheticDataset campaign(scratch.path() / "campaign");

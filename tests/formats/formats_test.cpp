@@ -87,9 +87,9 @@ TEST(ExportFormats, TellTheSame) {
   for (const char* name : {"coco", "coco-polygon", "yolo-detect", "yolo-segment"}) {
     formats.push_back(*find_format(export_formats(), name));
   }
-  const auto summaries = run_export(campaign.dataset(), formats, options);
-  ASSERT_TRUE(summaries) << summaries.error().message;
-  for (const ExportSummary& summary : *summaries) {
+  const auto outcome = run_export(campaign.dataset(), formats, options);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  for (const ExportSummary& summary : outcome->written) {
     counts.push_back(at(summary.splits[0].counts, Count::kAnnotations));
     EXPECT_GE(at(summary.splits[0].counts, Count::kTooSmall), 1);
   }

@@ -7,6 +7,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "export/split.h"
+#include "export/verify.h"
 #include "tests/annotate/yolo_decoder.h"
 #include "tests/export/synthetic_dataset.h"
 #include "tests/fixtures/scratch_folder.h"
@@ -50,12 +51,16 @@ TEST_F(ExportYolo, DetectionIsPinned) {
   EXPECT_EQ(*read_file(summary->folder / "data.yaml"),
             "train: images/train\n"
             "val: images/train\n"
-            "nc: 4\n"
             "names:\n"
             "  0: \"bolt\"\n"
             "  1: \"no\"\n"
             "  2: \"gear\"\n"
             "  3: \"say \\\"über\\\"\"\n");
+  EXPECT_EQ(*read_file(summary->folder / "data_with_nc.yaml"),
+            "train: images/train\n"
+            "val: images/train\n"
+            "nc: 4\n"
+            "names: [\"bolt\",\"no\",\"gear\",\"say \\\"über\\\"\"]\n");
 }
 
 TEST_F(ExportYolo, SegmentationIsPinned) {
@@ -77,8 +82,12 @@ TEST_F(ExportYolo, DataYamlMeansTheSameToAYamlReader) {
   const auto summary = export_one(campaign_.dataset(), "yolo-detect", split);
   ASSERT_TRUE(summary) << summary.error().message;
   const YAML::Node yaml = YAML::LoadFile((summary->folder / "data.yaml").string());
-  EXPECT_FALSE(yaml["path"]);
-  EXPECT_EQ(yaml["nc"].as<int>(), 4);
+  std::set<std::string> keys;
+  for (const auto& entry : yaml) keys.insert(entry.first.as<std::string>());
+  EXPECT_EQ(keys, (std::set<std::string>{"train", "val", "names"}));
+  const YAML::Node counted = YAML::LoadFile((summary->folder / "data_with_nc.yaml").string());
+  EXPECT_EQ(counted["nc"].as<int>(), 4);
+  EXPECT_EQ(counted["names"].as<std::vector<std::string>>(), campaign_.dataset().categories);
   ASSERT_EQ(yaml["names"].size(), 4U);
   for (int i = 0; i < 4; ++i) {
     EXPECT_EQ(yaml["names"][i].as<std::string>(),
@@ -191,11 +200,65 @@ TEST_F(ExportYolo, CountsRowsThatLoadersMerge) {
   for (const char* task : {"yolo-detect", "yolo-segment", "yolo-obb", "yolo-pose"}) {
     const auto summary = export_one(campaign_.dataset(), task, options());
     ASSERT_TRUE(summary) << summary.error().message;
+    EXPECT_EQ(rows(*summary, 8).size(), 3U);  // both are written
+    if (task == std::string("yolo-obb")) {    // the rectangles of crossed bolts span other boxes
+      EXPECT_EQ(at(summary->splits[0].counts, Count::kDuplicateRows), 0);
+      continue;
+    }
     EXPECT_EQ(at(summary->splits[0].counts, Count::kDuplicateRows), 1);
     ASSERT_EQ(summary->warnings.size(), 1U);
     EXPECT_THAT(summary->warnings[0], HasSubstr("train: 1 instances"));
-    EXPECT_EQ(rows(*summary, 8).size(), 3U);  // both are written
   }
+}
+
+// Loaders compare whole rows of boxes and of poses, and of polygons and rectangles the box around.
+TEST_F(ExportYolo, RowsOfPosesAreMergedOnlyIfTheirKeypointsAreTheSame) {
+  campaign_.add_ten_frames();
+  const fs::path path = campaign_.frame_folder(8) / frame_files::kLabels;
+  Json labels = *parse_json(*read_file(path), "labels");
+  for (Json& instance : labels["instances"]) {
+    if (instance["id"] == 1) instance["keypoints"][0]["px"][0] = 61.0;
+  }
+  ASSERT_TRUE(write_quickly(path, readable_json(labels)));
+  campaign_.write_manifest(campaign_.frames()[7]);
+  for (const char* task : {"yolo-detect", "yolo-segment", "yolo-pose"}) {
+    const auto summary = export_one(campaign_.dataset(), task, options());
+    ASSERT_TRUE(summary) << summary.error().message;
+    EXPECT_EQ(at(summary->splits[0].counts, Count::kDuplicateRows),
+              task == std::string("yolo-pose") ? 0 : 1)
+        << task;
+  }
+}
+
+TEST_F(ExportYolo, RectanglesAreMergedByTheBoxAroundThem) {
+  IdImage ids(40, 30);  // the corners of a square, and what is beside them
+  for (const int row : {5, 13}) {
+    for (const int column : {5, 13}) {
+      ids.at(row, column) = 3;
+      ids.at(row, column == 5 ? 6 : 12) = ids.at(row == 5 ? 6 : 12, column) = 1;
+    }
+  }
+  campaign_.add_frame(0, 0, ids);
+  const auto summary = export_one(campaign_.dataset(), "yolo-obb", options());
+  ASSERT_TRUE(summary) << summary.error().message;
+  EXPECT_EQ(at(summary->splits[0].counts, Count::kDuplicateRows), 1);
+}
+
+TEST_F(ExportYolo, KnowsWhatTrainersLeaveBehind) {
+  campaign_.add_ten_frames();
+  const auto summary = export_one(campaign_.dataset(), "yolo-detect", options());
+  ASSERT_TRUE(summary) << summary.error().message;
+  const auto differences = [&] {
+    return verify_export(campaign_.dataset(), export_formats(), summary->folder, 2)
+        ->first_differences;
+  };
+  ASSERT_TRUE(write_quickly(summary->folder / "labels/train.cache", "pickled"));
+  ASSERT_TRUE(write_quickly(summary->folder / "images/train/000000.npy", "pixels"));
+  EXPECT_THAT(differences(), ::testing::IsEmpty());
+  ASSERT_TRUE(write_quickly(summary->folder / "labels/train/000004.txt", "0 0.5 0.5 0.1 0.1\n"));
+  ASSERT_TRUE(write_quickly(summary->folder / "images/train/000000.cache", "?"));
+  EXPECT_THAT(differences(), ::testing::ElementsAre("images/train/000000.cache belongs to no frame",
+                                                    "labels/train/000004.txt belongs to no frame"));
 }
 
 TEST_F(ExportYolo, RefusesImagesThatLoadersRefuse) {

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import coco
 import numpy as np
-from common import Annotation, Dataset, image_readers
+from common import Annotation, Dataset, image_readers, tight_box
 from PIL import Image
 
 PLY_TYPES = {
@@ -21,8 +21,9 @@ PLY_TYPES = {
 }  # fmt: skip
 
 
-def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (n, 3) float64 and triangles (m, 3) of a PLY file, text or little endian."""
+def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
+    """Vertices (n, 3) float64, triangles (m, 3) and, if there are any, the vertices' normals (n, 3)
+    of a PLY file, text or little endian."""
     data = path.read_bytes()
     end = data.index(b"end_header\n") + len(b"end_header\n")
     lines = [line.split() for line in data[:end].decode("ascii").splitlines()]
@@ -33,12 +34,15 @@ def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray]:
     properties = [line for line in lines if line[0] == "property"]
     scalars = [line for line in properties if line[1] != "list"]
     (faces,) = [line for line in properties if line[1] == "list"]
-    columns = [[line[2] for line in scalars].index(axis) for axis in "xyz"]
+    names = [line[2] for line in scalars]
+    columns = [names.index(axis) for axis in "xyz"]
+    has_normals = {"nx", "ny", "nz"} <= set(names)
     if encoding == "ascii":
         rows = [line.split() for line in data[end:].decode("ascii").splitlines()]
         table = np.array(rows[: counts["vertex"]], dtype=float)
         triangles = np.array(rows[counts["vertex"] :], dtype=int)
-        return table[:, columns], triangles[:, 1:]
+        normals = table[:, [names.index(f"n{axis}") for axis in "xyz"]] if has_normals else None
+        return table[:, columns], triangles[:, 1:], normals
     if encoding != "binary_little_endian":
         raise ValueError(f"{path.name}: format {encoding}")
     vertex = np.dtype([(line[2], "<" + PLY_TYPES[line[1]]) for line in scalars])
@@ -51,7 +55,8 @@ def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray]:
     if (polygons["n"] != 3).any():
         raise ValueError(f"{path.name}: faces that are no triangles")
     vertices = np.stack([table[axis] for axis in "xyz"], axis=1).astype(np.float64)
-    return vertices, polygons["v"].astype(np.int64)
+    normals = np.stack([table[f"n{axis}"] for axis in "xyz"], axis=1) if has_normals else None
+    return vertices, polygons["v"].astype(np.int64), normals
 
 
 def project(points: np.ndarray, rotation: list, translation: list, matrix: list) -> np.ndarray:
@@ -83,6 +88,7 @@ def _boxes_of_coco(scene: Path, dataset: Dataset, split: str) -> dict[str, list[
     for entry in document["annotations"]:
         name = names[entry["category_id"]]
         annotation = coco.annotation_of(entry, images[entry["image_id"]], name, split)
+        annotation.extras["bbox"] = entry["bbox"]
         found[annotation.stem].append(annotation)
     return found
 
@@ -114,11 +120,12 @@ def _read_scene(scene: Path, dataset: Dataset, split: str) -> None:
         for number, (pose, counts) in enumerate(zip(poses[key], info[key], strict=True)):
             annotation = boxes[stem][number]
             extras = {"coco": annotation.extras, "coco_mask": annotation.mask, **pose, **counts}
+            box = tight_box(annotation.mask)
             extras["mask"] = _read_mask(scene / "mask" / f"{stem}_{number:06}.png")
             extras["asset"] = dataset.extras["models"][pose["obj_id"]]["asset"]
             visible = _read_mask(scene / "mask_visib" / f"{stem}_{number:06}.png")
             dataset.annotations.append(
-                Annotation(stem, split, annotation.name, visible, annotation.box, extras)
+                Annotation(stem, split, annotation.name, visible, box, extras)
             )
 
 
@@ -130,6 +137,7 @@ def load(folder: Path) -> Dataset:
     info = json.loads((folder / "models/models_info.json").read_text())
     dataset = Dataset([models[i]["asset"] for i in sorted(models)], {}, [])
     dataset.extras = {"images": {}, "models": models, "targets": {}, "meshes": {}}
+    dataset.extras["camera"] = json.loads((folder / "camera.json").read_text())
     dataset.extras["models_info"] = {int(key): value for key, value in info.items()}
     for path in sorted((folder / "models").glob("obj_*.ply")):
         dataset.extras["meshes"][int(path.stem.removeprefix("obj_"))] = read_ply(path)

@@ -7,13 +7,14 @@ from collections import Counter
 import bop
 import compare
 import numpy as np
-from common import Annotation, Dataset
+from common import Annotation, Dataset, tight_box
 from compare import Report
 from source import Campaign, Frame, Instance
 
 PROJECTION = 0.01  # pixels
 FLOAT32 = 1e-4  # millimetres: vertices of a metre in single precision
 MOST_VERTICES = 3000
+LEAST_VISIBLE = 0.1  # of what is to be found
 
 
 def corners_of_box(box: np.ndarray) -> np.ndarray:
@@ -54,6 +55,20 @@ def check_model(
         report.check(abs(diameter - least) <= FLOAT32, f"{where}: diameter {diameter}, not {least}")
 
 
+def check_normals(
+    where: str, vertices: np.ndarray, triangles: np.ndarray, normals: np.ndarray, report: Report
+) -> None:
+    """Of length 1, on the outer side of nearly all triangles that they shade."""
+    if not report.check(normals is not None, f"{where}: no normals"):
+        return
+    lengths = np.linalg.norm(normals, axis=1)
+    report.check(np.abs(lengths - 1).max() < 1e-5, f"{where}: normals of other lengths than 1")
+    a, b, c = (vertices[triangles[:, i]] for i in range(3))
+    faces = np.cross(b - a, c - a)
+    inwards = np.einsum("ijk,ik->ij", normals[triangles], faces) <= 0
+    report.check(inwards.mean() < 0.01, f"{where}: {inwards.sum()} corners are shaded from inside")
+
+
 def _check_models(dataset: Dataset, campaign: Campaign, report: Report) -> None:
     extras = dataset.extras
     models = extras["models"]
@@ -64,9 +79,10 @@ def _check_models(dataset: Dataset, campaign: Campaign, report: Report) -> None:
         set(models) == set(extras["meshes"]) == set(extras["models_info"]),
         "models.json, models_info.json and the PLY files are of different objects",
     )
-    for number, (vertices, triangles) in sorted(extras["meshes"].items()):
+    for number, (vertices, triangles, normals) in sorted(extras["meshes"].items()):
         info = extras["models_info"][number]
         check_model(f"obj_{number:06}", vertices, triangles, info, report)
+        check_normals(f"obj_{number:06}", vertices, triangles, normals, report)
     bounds = {
         i.asset: i.object_box * 1000 for frame in campaign.frames.values() for i in frame.instances
     }
@@ -122,6 +138,10 @@ def _check_instance(
     found = (coco["id"], coco["image_id"], coco["category_id"], coco["area"], coco["iscrowd"])
     expected = (identity, frame.index, extras["obj_id"], instance.area, 0)
     report.check(found == expected, f"{where}: scene_gt_coco has {found}, not {expected}")
+    found = (coco["bbox"], coco["ignore"], coco["width"], coco["height"])
+    amodal = list(tight_box(instance.silhouette))
+    expected = (amodal, instance.visible_fraction < LEAST_VISIBLE, frame.width, frame.height)
+    report.check(found == expected, f"{where}: scene_gt_coco has {found}, not {expected}")
     _check_pose(where, frame, instance, extras, image["camera"], report)
 
 
@@ -147,16 +167,28 @@ def _check_image(frame: Frame, image: dict, report: Report) -> None:
         report.check(not far, f"{frame.stem}/{instance.id}: depth outside the object's box")
 
 
+def _check_camera(dataset: Dataset, campaign: Campaign, report: Report) -> None:
+    """camera.json is that of the first frame."""
+    stem = min(campaign.frames)
+    frame, image = campaign.frames[stem], dataset.extras["images"][stem]
+    (fx, fy), (cx, cy) = frame.focal, frame.centre
+    wanted = {"width": frame.width, "height": frame.height, "fx": fx, "fy": fy, "cx": cx, "cy": cy}
+    if frame.has_depth:
+        wanted["depth_scale"] = image["camera"]["depth_scale"]
+    found = dataset.extras["camera"]
+    report.check(found == wanted, f"camera.json: {found}, not {wanted}")
+
+
 def _check_targets(dataset: Dataset, report: Report) -> None:
     for split, targets in dataset.extras["targets"].items():
         counts: Counter = Counter()
         for annotation in dataset.annotations:
-            if annotation.split == split:
+            if annotation.split == split and annotation.extras["visib_fract"] >= LEAST_VISIBLE:
                 scene, image = dataset.scenes[annotation.stem], int(annotation.stem)
                 counts[scene, image, annotation.extras["obj_id"]] += 1
         listed = {(t["scene_id"], t["im_id"], t["obj_id"]): t["inst_count"] for t in targets}
         good = listed == dict(counts) and len(listed) == len(targets)
-        report.check(good, f"{split}_targets_bop19.json: other counts than scene_gt")
+        report.check(good, f"{split}_targets_bop19.json: other counts than scene_gt has visible")
 
 
 def check(dataset: Dataset, campaign: Campaign, report: Report) -> None:
@@ -171,4 +203,5 @@ def check(dataset: Dataset, campaign: Campaign, report: Report) -> None:
         if stem in campaign.frames:
             _check_image(campaign.frames[stem], image, report)
     _check_models(dataset, campaign, report)
+    _check_camera(dataset, campaign, report)
     _check_targets(dataset, report)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import compare
 import numpy as np
 import rle
-from common import Dataset, iou
+from common import Dataset, iou, tight_box
 from compare import Report
 from source import Campaign, Frame, Instance
 
@@ -64,6 +64,8 @@ def _images(dataset: Dataset, campaign: Campaign, report: Report) -> None:
         )
         report.check(same, f"{stem}: image entry {image}")
         ending = frame.image.suffix if frame.image else ".png"
+        if report.name == "coco-panoptic":
+            ending = ".jpg"  # whatever the image is
         report.check(image["file_name"] == stem + ending, f"{stem}: {image['file_name']}")
 
 
@@ -137,15 +139,29 @@ def _keypoints(dataset: Dataset, campaign: Campaign, amodal: bool, report: Repor
         report.check(number == seen, f"{where}: num_keypoints {number}, not {seen}")
         table[table[:, 2] > 0, :2] += 0.5
         choices = expected_points(instance, lists[instance.name])
+        for choice in choices:  # pixel indices begin at 0, the centre of the first pixel
+            choice[choice[:, 2] > 0, :2] = np.maximum(choice[choice[:, 2] > 0, :2], 0.5)
         compare_points(where, table, choices, ROUNDING, report)
 
 
 def _panoptic(dataset: Dataset, campaign: Campaign, report: Report) -> None:
     colours = {tuple(c["color"]) for c in dataset.extras["categories"]}
-    report.check(len(colours) == len(dataset.categories), "two categories of one colour")
+    report.check(len(colours) == len(dataset.extras["categories"]), "two categories of one colour")
     report.check((0, 0, 0) not in colours, "a category is black")
-    for category in dataset.extras["categories"]:
+    *things, background = dataset.extras["categories"]
+    for category in things:
         report.check(category["isthing"] == 1, f"{category['name']}: not a thing")
+    found = (background["name"], background["isthing"], background["id"])
+    wanted = ("background", 0, len(things) + 1)
+    report.check(found == wanted, f"the last category is {found}, not {wanted}")
+    for stem, frame in campaign.frames.items():
+        segments = dataset.extras["stuff"].get(stem, [])
+        (segment, mask), *more = segments or [({"area": 0}, frame.unlabelled & False)]
+        report.check(not more, f"{stem}: {len(segments)} segments of stuff")
+        compare.same_mask(stem, mask, frame.unlabelled, report, "background")
+        good = segment["area"] == mask.sum()
+        good &= not mask.any() or tuple(segment["bbox"]) == tight_box(mask)
+        report.check(good, f"{stem}: area or box of the background: {segment}")
     for frame, instance, annotation in compare.compare_annotations(dataset, campaign, report):
         where, extras = f"{frame.stem}/{instance.id}", annotation.extras
         wanted = (instance.id, instance.category, instance.area, 0)
@@ -159,7 +175,8 @@ def check(
     """Any of the four; which one it is says the dataset's folder."""
     report.check(dataset.categories == campaign.categories, f"categories {dataset.categories}")
     for category in dataset.extras["categories"]:
-        report.check(category["supercategory"] == "object", f"{category}: supercategory")
+        wanted = "object" if category.get("isthing", 1) else "background"
+        report.check(category["supercategory"] == wanted, f"{category}: supercategory")
     _images(dataset, campaign, report)
     if report.name == "coco-panoptic":
         _panoptic(dataset, campaign, report)

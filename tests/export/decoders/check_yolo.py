@@ -113,8 +113,8 @@ def _check_segments(pairs: list[tuple[str, Instance, Annotation]], report: Repor
 
 
 def _names_of_class(dataset: Dataset, campaign: Campaign, name: str, count: int) -> list[str]:
-    """A class's keypoints, padded to `count`: from data.yaml, else from its assets in order."""
-    listed = dataset.extras["settings"].get("kpt_names")
+    """A class's keypoints, padded to `count`: from the yaml, else from its assets in order."""
+    listed = dataset.extras["kpt_names"]
     if listed:
         return list(listed[campaign.categories.index(name)])
     points: dict[str, list[str]] = {}

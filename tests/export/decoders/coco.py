@@ -15,7 +15,7 @@ from PIL import Image
 KINDS = {
     "coco": "instances",
     "coco-polygon": "instances",
-    "coco-keypoints": "keypoints",
+    "coco-keypoints": "person_keypoints",
     "coco-panoptic": "panoptic",
 }
 
@@ -42,9 +42,11 @@ def annotation_of(entry: dict, image: dict, name: str, split: str) -> Annotation
 
 
 def _panoptic(
-    folder: Path, document: dict, images: dict[int, dict], names: dict[int, str], split: str
+    folder: Path, document: dict, images: dict[int, dict], split: str, stuff: dict[str, list]
 ) -> Iterator[Annotation]:
-    """Segments of the split's RGB images: id = R + 256 G + 65536 B, 0 is void."""
+    """Things of the split's RGB images: id = R + 256 G + 65536 B, 0 is void. What is stuff goes to
+    `stuff`: (segment, mask) by stem."""
+    categories = {category["id"]: category for category in document["categories"]}
     for entry in document["annotations"]:
         image = images[entry["image_id"]]
         picture = Image.open(folder / "annotations" / f"panoptic_{split}" / entry["file_name"])
@@ -56,11 +58,16 @@ def _panoptic(
             raise ValueError(f"{entry['file_name']}: not of the image's size")
         if sorted(listed) != sorted(set(np.unique(ids).tolist()) - {0}):
             raise ValueError(f"{entry['file_name']}: other segments than segments_info")
+        stem = Path(image["file_name"]).stem
         for segment in entry["segments_info"]:
+            category = categories[segment["category_id"]]
+            if not category["isthing"]:
+                stuff.setdefault(stem, []).append((segment, ids == segment["id"]))
+                continue
             yield Annotation(
-                Path(image["file_name"]).stem,
+                stem,
                 split,
-                names[segment["category_id"]],
+                category["name"],
                 ids == segment["id"],
                 tuple(segment["bbox"]),
                 {k: v for k, v in segment.items() if k != "bbox"},
@@ -82,7 +89,7 @@ def load(folder: Path) -> Dataset:
         if dataset.extras["categories"] not in ([], categories):
             dataset.problems.append(f"{path.name}: other categories than another split")
         dataset.extras["categories"] = categories
-        dataset.categories = [category["name"] for category in categories]
+        dataset.categories = [c["name"] for c in categories if c.get("isthing", 1)]
         images = {image["id"]: image for image in document["images"]}
         if len(images) != len(document["images"]):
             dataset.problems.append(f"{path.name}: an image id occurs twice")
@@ -92,7 +99,8 @@ def load(folder: Path) -> Dataset:
         if kind == "panoptic":
             if [e["image_id"] for e in document["annotations"]] != list(images):
                 dataset.problems.append(f"{path.name}: not one annotation for each image")
-            found = _panoptic(folder, document, images, names, split)
+            stuff = dataset.extras.setdefault("stuff", {})
+            found = _panoptic(folder, document, images, split, stuff)
             dataset.annotations += list(found)
         else:
             dataset.annotations += [

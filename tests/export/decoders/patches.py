@@ -20,10 +20,12 @@ def load(folder: Path) -> Dataset:
     names = {entry["folder"]: entry["name"] for entry in classes}
     dataset = Dataset([entry["name"] for entry in classes], {}, [])
     dataset.extras["folders"] = list(names)
+    found: dict[tuple, str] = {}  # the folders of classes are the same in every split
     for split_folder in sorted(path for path in folder.iterdir() if path.is_dir()):
         split = split_folder.name
         folders = sorted(path.name for path in split_folder.iterdir())
-        if folders != sorted(names):
+        found.setdefault(tuple(folders), split)
+        if set(folders) - set(names) or len(found) > 1:
             dataset.problems.append(f"{split}: folders {folders}")
         stems = set()
         for path in sorted(split_folder.glob("*/*")):
@@ -37,6 +39,11 @@ def load(folder: Path) -> Dataset:
             dataset.annotations.append(Annotation(stem, split, name, None, None, extras))
             stems.add(stem)
         dataset.splits[split] = sorted(stems)
+    shown = {annotation.name for annotation in dataset.annotations}
+    wanted = {folder for folder, name in names.items() if name in shown}
+    for folders in found:
+        if set(folders) != wanted:
+            dataset.problems.append(f"folders {folders}, patches in {sorted(wanted)}")
     return dataset
 
 

@@ -66,6 +66,7 @@ class Frame:
     image: Path | None
     has_depth: bool
     twin_exact: bool
+    unlabelled: np.ndarray  # (height, width) bool: pixels of nothing that has a category
 
 
 @dataclass
@@ -164,6 +165,7 @@ def read_frame(folder: Path, min_pixels: int, min_visible: float, amodal: bool) 
         and entry["area_px"] >= min_pixels
         and entry["visible_fraction"] >= min_visible
     ]
+    labelled = [entry["id"] for entry in labels["instances"] if entry["category"] > 0]
     image = _picture(folder, (labels["width"], labels["height"]))
     return Frame(
         index=int(folder.name),
@@ -177,6 +179,7 @@ def read_frame(folder: Path, min_pixels: int, min_visible: float, amodal: bool) 
         image=image,
         has_depth=(folder / "depth.exr").is_file(),
         twin_exact=labels["twin_exact"],
+        unlabelled=~np.isin(ids, labelled),
     )
 
 

@@ -56,7 +56,7 @@ def _class(instances: list[tuple[Frame, Instance]], edges: list[int]) -> dict[st
         visible[tenth(instance.area, instance.amodal_area)] += 1
         outside = instance.amodal_area - instance.in_image
         truncation[tenth(outside, instance.amodal_area)] += 1
-        positions[cell(instance.box, frame.width, frame.height)] += 1
+        positions[cell(instance.visible_box, frame.width, frame.height)] += 1
     return {
         "images": len({frame.stem for frame, _ in instances}),
         "instances": len(instances),

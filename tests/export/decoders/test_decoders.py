@@ -151,8 +151,10 @@ class Coco(InFolder):
     def test_panoptic(self) -> None:
         base = "coco-panoptic/annotations/panoptic_train"
         segment = {"id": 258, "category_id": 1, "area": 1, "bbox": [1, 0, 1, 1], "iscrowd": 0}
+        nut = {"id": 1, "name": "nut", "isthing": 1, "color": [1, 2, 3]}
+        stuff = {"id": 2, "name": "background", "isthing": 0, "color": [3, 2, 1]}
         document = {
-            "categories": [{"id": 1, "name": "nut", "isthing": 1, "color": [1, 2, 3]}],
+            "categories": [nut, stuff],
             "images": [{"id": 1, "file_name": "000000.png", "width": 2, "height": 1}],
             "annotations": [{"image_id": 1, "file_name": "000000.png", "segments_info": [segment]}],
         }
@@ -163,12 +165,20 @@ class Coco(InFolder):
         self.write(f"{base}/000000.png", png(np.array([[[3, 0, 0], [2, 1, 0]]], np.uint8)))
         with self.assertRaises(ValueError):
             list(coco.read(self.folder / "coco-panoptic"))
+        segments = document["annotations"][0]["segments_info"]
+        segments.append({"id": 3, "category_id": 2, "area": 1, "bbox": [0, 0, 1, 1], "iscrowd": 0})
+        self.write(f"{base}.json", document)
+        dataset = coco.load(self.folder / "coco-panoptic")
+        self.assertEqual((dataset.categories, len(dataset.annotations)), (["nut"], 1))
+        ((_, mask),) = dataset.extras["stuff"]["000000"]
+        np.testing.assert_array_equal(mask, mask_of("#."))
 
 
 class Yolo(InFolder):
     def load(self, kind: str, row: str, more: str = "") -> Dataset:
-        settings = 'train: images/train\nval: images/train\nnc: 2\nnames: {0: "a", 1: "b"}\n'
-        self.write(f"yolo-{kind}/data.yaml", settings + more)
+        settings = "train: images/train\nval: images/train\n"
+        self.write(f"yolo-{kind}/data.yaml", settings + 'names: {0: "a", 1: "b"}\n' + more)
+        self.write(f"yolo-{kind}/data_with_nc.yaml", settings + 'nc: 2\nnames: ["a", "b"]\n' + more)
         self.write(f"yolo-{kind}/labels/train/000000.txt", row)
         return yolo.load(self.folder / f"yolo-{kind}", {"000000": (20, 10)})
 

@@ -74,7 +74,8 @@ class Bop(InFolder):
         self.write("binary.ply", binary + struct.pack("<B3i", 3, 0, 1, 2))
         self.write("short.ply", binary)
         for name in ("text.ply", "binary.ply"):
-            vertices, triangles = bop.read_ply(self.folder / name)
+            vertices, triangles, normals = bop.read_ply(self.folder / name)
+            self.assertIsNone(normals)
             self.assertEqual(vertices.tolist(), [list(vertex) for vertex in self.VERTICES])
             self.assertEqual(triangles.tolist(), [[0, 1, 2]])
         with self.assertRaises(ValueError):
@@ -87,6 +88,18 @@ class Bop(InFolder):
             report = Report("bop")
             arrays = np.array(self.VERTICES), np.array([[0, 1, 2]])
             check_bop.check_model("m", *arrays, info | {"diameter": diameter}, report)
+            self.assertEqual(len(report.differences), faults)
+
+    def test_normals(self) -> None:
+        header = self.HEADER.replace("z\nelement", "z\n" + "".join(
+            f"property float n{axis}\n" for axis in "xyz") + "element")  # fmt: skip
+        text = header.format("ascii") + "0 0 0 0 0 1\n3 0 0 0 0 1\n0 4 0 0 0 1\n3 0 1 2\n"
+        self.write("shaded.ply", text)
+        vertices, triangles, normals = bop.read_ply(self.folder / "shaded.ply")
+        self.assertEqual(normals.tolist(), [[0, 0, 1]] * 3)
+        for turned, faults in ((normals, 0), (-normals, 1), (2 * normals, 1), (None, 1)):
+            report = Report("bop")
+            check_bop.check_normals("m", vertices, triangles, turned, report)
             self.assertEqual(len(report.differences), faults)
 
     def test_projection(self) -> None:
@@ -147,6 +160,8 @@ class Patches(InFolder):
         self.assertEqual((found.extras["id"], found.extras["pixels"].shape), (3, (4, 4, 3)))
         self.assertEqual(dataset.splits, {"train": ["000042"], "val": []})
         self.assertEqual(dataset.problems, [])
+        (self.folder / "train/empty").mkdir()
+        self.assertEqual(len(patches.load(self.folder).problems), 3)
 
 
 class Statistics(unittest.TestCase):

@@ -71,8 +71,14 @@ def load(folder: Path, sizes: Mapping[str, tuple[int, int]] | None = None) -> Da
     settings = yaml.safe_load((folder / "data.yaml").read_text())
     names = [settings["names"][i] for i in range(len(settings["names"]))]
     dataset = Dataset(names, {}, [], extras={"settings": settings, "kind": kind})
-    if settings["nc"] != len(names):
-        dataset.problems.append("data.yaml: nc is not the number of names")
+    counted = yaml.safe_load((folder / "data_with_nc.yaml").read_text())
+    if counted.pop("nc") != len(names) or counted.pop("names") != names:
+        dataset.problems.append("data_with_nc.yaml: other classes than data.yaml")
+    dataset.extras["kpt_names"] = counted.pop("kpt_names", None)
+    if counted != {key: value for key, value in settings.items() if key != "names"}:
+        dataset.problems.append("data_with_nc.yaml: other splits than data.yaml")
+    if settings.keys() - {"train", "val", "test", "names", "kpt_shape", "flip_idx"}:
+        dataset.problems.append(f"data.yaml: keys {sorted(settings)}")
     if "path" in settings:
         dataset.problems.append("data.yaml: has a path, the folder cannot be moved")
     for key in ("train", "val"):
