@@ -3,7 +3,7 @@
 # (also under AddressSanitizer and UndefinedBehaviorSanitizer), and the tests with the real Blender.
 #
 #   scripts/test.sh            all
-#   scripts/test.sh unit       unit tests of the release build only
+#   scripts/test.sh unit       unit tests of the release build only, and exports read by small programs from PyPI
 #   scripts/test.sh versions   what depends on Blender's version, with 4.2 and 5.0
 set -u
 cd "$(dirname "$0")/.."
@@ -53,6 +53,16 @@ run_version() { # of Blender: as a module of Python, if it can be installed
   fi
 }
 
+read_exports() { # name of the environment and of the test, what makes it, what is in it
+  if "scripts/$2"; then
+    step "exports read by $3" \
+      env PYTHONDONTWRITEBYTECODE=1 "venv/$1/bin/python" "tests/export/clients/$1_test.py" build/release/seedframe
+  else
+    skipped=$((skipped + 1))
+    echo "SKIPPED: exports read by $3, which could not be installed (is PyPI reached from here?)"
+  fi
+}
+
 # More at once than there are cores: many tests wait for a process or for a timeout to pass.
 at_once=$(($(nproc) * 3 / 2))
 if ! configure release || ! ninja --quiet -C build/release all; then
@@ -75,6 +85,7 @@ if [ "$what" = versions ]; then
 else
   echo "== unit tests"
   run_tests release unit "$at_once"
+  read_exports clients client_wheels.sh "pycocotools and webdataset"
 fi
 if [ "$what" = all ]; then
   step "format (clang-format)" sh -c \
