@@ -44,7 +44,8 @@ std::int64_t Audit::count(Grade grade) const {
 }
 
 Grade Audit::grade() const {
-  Grade worst = sample.failed.empty() ? Grade::kIdentical : Grade::kNotReproducible;
+  const bool as_asked = sample.failed.empty() && files.other_inputs.empty();
+  Grade worst = as_asked ? Grade::kIdentical : Grade::kNotReproducible;
   for (const AuditedFrame& frame : frames) worst = std::max(worst, frame.grade);
   return worst;
 }
@@ -58,7 +59,7 @@ Auditor::Auditor(const Campaign& campaign, PreparedCampaign& prepared, const Run
       portable_(is_portable(prepared)) {}
 
 Status Auditor::look() {
-  Result<FileCheck> files = check_files(campaign_);
+  Result<FileCheck> files = check_files(campaign_, prepared_);
   if (!files) return forward_error(files);
   audit_.files = std::move(*files);
   Result<AuditSample> sample = choose_sample(campaign_.store, options_.sample);

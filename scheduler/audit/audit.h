@@ -47,7 +47,8 @@ struct Audit {
   std::vector<std::string> notes;
 
   std::int64_t count(Grade grade) const;
-  /// The worst; of a frame that failed, kNotReproducible.
+  /// The worst; of a frame that failed, or for which something else is asked today,
+  /// kNotReproducible.
   Grade grade() const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -37,6 +38,8 @@ Json file_check_json(const FileCheck& files) {
   return {{"frames", files.frames},
           {"bytes", files.bytes},
           {"problems", problems},
+          {"of_no_frame", files.of_no_frame},
+          {"other_inputs", files.other_inputs},
           {"duplicates", duplicates}};
 }
 
@@ -63,18 +66,41 @@ std::string count_of_grades(const Audit& audit) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// Each problem of a frame is told, but a frame counts once.
+std::size_t frames_with_problems(const FileCheck& files) {
+  std::set<std::int64_t> frames;
+  for (const FileCheck::Problem& problem : files.problems) frames.insert(problem.frame);
+  return frames.size();
+}
+
 std::vector<std::string> file_lines(const FileCheck& files) {
-  std::vector<std::string> lines = {
-      fmt::format("files: {} frames with {} were read, {}", files.frames, megabytes(files.bytes),
-                  files.problems.empty()
-                      ? "all as they were written"
-                      : fmt::format("{} are not as they were written", files.problems.size()))};
+  std::vector<std::string> lines = {fmt::format(
+      "files: {} frames with {} were read, {}", files.frames, megabytes(files.bytes),
+      files.problems.empty()
+          ? "all as they were written"
+          : fmt::format("{} are not as they were written", frames_with_problems(files)))};
+  for (std::size_t i = 0; i < std::min(kMostListed, files.of_no_frame.size()); ++i) {
+    lines.push_back("  " + files.of_no_frame[i]);
+  }
+  if (files.of_no_frame.size() > kMostListed) {
+    lines.push_back(fmt::format("  and {} more of no frame: report.json lists them",
+                                files.of_no_frame.size() - kMostListed));
+  }
   for (std::size_t i = 0; i < std::min(kMostListed, files.problems.size()); ++i) {
     lines.push_back(fmt::format("  frame {}: {}", files.problems[i].frame, files.problems[i].text));
   }
   if (files.problems.size() > kMostListed) {
     lines.push_back(
         fmt::format("  and {} more: report.json lists them", files.problems.size() - kMostListed));
+  }
+  if (!files.other_inputs.empty()) {
+    const std::size_t listed = std::min(kMostListed, files.other_inputs.size());
+    const std::vector<std::int64_t> first(
+        files.other_inputs.begin(),
+        files.other_inputs.begin() + static_cast<std::ptrdiff_t>(listed));
+    lines.push_back(fmt::format("inputs: of {} frames something else is asked today: {}{}",
+                                files.other_inputs.size(), list_of(first),
+                                listed < files.other_inputs.size() ? ", …" : ""));
   }
   for (std::size_t i = 0; i < std::min(kMostListed, files.duplicates.size()); ++i) {
     const FileCheck::Duplicates& group = files.duplicates[i];

@@ -1,29 +1,27 @@
 #include "audit/file_check.h"
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <unordered_map>
 
 #include <tbb/parallel_for.h>
 
+#include "audit/provenance_check.h"
+#include "base/files.h"
+#include "frames/frame_contents.h"
+#include "spec/frame_spec_reader.h"
+
 namespace seedframe {
+namespace fs = std::filesystem;
 namespace {
 
 struct CheckedFrame {
   std::uint64_t bytes = 0;
-  std::string problem;
+  std::vector<std::string> problems;
+  bool other_inputs = false;
+  UsedFiles used;
 };
-
-CheckedFrame check_frame(const Campaign& campaign, const FrameRow& row) {
-  const auto folder = campaign.files.frame(row.frame);
-  const Result<Manifest> manifest = verify_frame(folder, row.frame_id, VerifyDepth::kContents);
-  if (!manifest) return {0, manifest.error().message};
-  CheckedFrame checked;
-  for (const auto& [name, file] : manifest->files) checked.bytes += file.bytes;
-  if (manifest->pixel_hash() != row.pixel_hash) {
-    checked.problem = folder.string() + ": its pixel hash is not the one in the job store";
-  }
-  return checked;
-}
 
 /// Frames by their pixels.
 class Twins {
@@ -48,32 +46,148 @@ class Twins {
   std::map<std::int64_t, FileCheck::Duplicates> groups_;
 };
 
-}  // namespace
+Result<FrameSpec> stored_spec(const fs::path& folder) {
+  const fs::path path = folder / frame_files::kSpec;
+  const auto text = read_file(path);
+  if (!text) return forward_error(text);
+  const auto json = parse_json(*text, path.string());
+  if (!json) return forward_error(json);
+  return frame_spec_from_json(*json, path.string());
+}
 
-Result<FileCheck> check_files(const Campaign& campaign) {
-  constexpr int kReadAtOnce = 4096;
-  FileCheck check;
-  Twins twins;
-  for (std::int64_t first = 0;;) {
-    auto rows = campaign.store.frames_from(first, kReadAtOnce);
-    if (!rows) return forward_error(rows);
-    if (rows->empty()) break;
-    first = rows->back().frame + 1;
-    std::erase_if(*rows, [](const FrameRow& row) { return row.state != FrameState::kDone; });
-    std::vector<CheckedFrame> checked(rows->size());
-    tbb::parallel_for(std::size_t{0}, rows->size(),
-                      [&](std::size_t i) { checked[i] = check_frame(campaign, (*rows)[i]); });
-    for (std::size_t i = 0; i < rows->size(); ++i) {
-      ++check.frames;
-      check.bytes += checked[i].bytes;
-      twins.add((*rows)[i]);
-      if (!checked[i].problem.empty()) {
-        check.problems.push_back({(*rows)[i].frame, std::move(checked[i].problem)});
+class FilesOfCampaign {
+ public:
+  FilesOfCampaign(const Campaign& campaign, const PreparedCampaign& prepared, bool same_rays)
+      : campaign_(campaign), prepared_(prepared), same_rays_(same_rays) {}
+
+  Result<FileCheck> check() {
+    constexpr int kReadAtOnce = 4096;
+    while (true) {
+      auto rows = campaign_.store.frames_from(next_, kReadAtOnce);
+      if (!rows) return forward_error(rows);
+      if (rows->empty()) break;
+      for (const FrameRow& row : *rows) {
+        note_gap(row.frame);
+        next_ = row.frame + 1;
+      }
+      std::erase_if(*rows, [](const FrameRow& row) { return row.state != FrameState::kDone; });
+      std::vector<CheckedFrame> checked(rows->size());
+      tbb::parallel_for(std::size_t{0}, rows->size(),
+                        [&](std::size_t i) { checked[i] = check_frame((*rows)[i]); });
+      for (std::size_t i = 0; i < rows->size(); ++i) take((*rows)[i], std::move(checked[i]));
+    }
+    const std::int64_t all = prepared_.expander.frame_count();
+    note_gap(all);
+    if (next_ > all) {
+      complain(fmt::format("the job store has {} frames, the config makes {}", next_, all));
+    }
+    name_strange_frames();
+    check_.duplicates = twins_.groups();
+    for (std::string& problem : wrong_provenance(campaign_, prepared_, used_, is_as_asked())) {
+      complain(std::move(problem));
+    }
+    return std::move(check_);
+  }
+
+ private:
+  bool is_as_asked() const { return check_.other_inputs.empty(); }
+  void complain(std::string problem) { check_.of_no_frame.push_back(std::move(problem)); }
+
+  /// `frame` is the next one there is, or the end.
+  void note_gap(std::int64_t frame) {
+    if (frame <= next_) return;
+    complain(frame == next_ + 1
+                 ? fmt::format("the job store does not know frame {}", next_)
+                 : fmt::format("the job store does not know frames {} to {}", next_, frame - 1));
+  }
+
+  CheckedFrame check_frame(const FrameRow& row) {
+    CheckedFrame checked;
+    const fs::path folder = campaign_.files.frame(row.frame);
+    const Result<Manifest> manifest = verify_frame(folder, row.frame_id, VerifyDepth::kContents);
+    if (!manifest) {
+      checked.problems.push_back(manifest.error().message);
+      return checked;
+    }
+    for (const auto& [name, file] : manifest->files) checked.bytes += file.bytes;
+    if (manifest->pixel_hash() != row.pixel_hash) {
+      checked.problems.push_back(folder.string() +
+                                 ": its pixel hash is not the one in the job store");
+    }
+    Result<ExpandedFrame> expanded = prepared_.expander.expand(row.frame);
+    checked.other_inputs = !expanded || expanded->id != row.frame_id;
+    ContentWish wish{prepared_.settings.categories, nullptr, same_rays_};
+    FrameSpec spec;
+    if (!checked.other_inputs) {
+      checked.used = std::move(expanded->used);
+      spec = std::move(expanded->spec);
+      wish.meshes = &expanded->meshes;
+    } else if (auto stored = stored_spec(folder)) {
+      spec = std::move(*stored);
+      if (frame_id(spec) != row.frame_id) {
+        checked.problems.push_back((folder / frame_files::kSpec).string() +
+                                   " is not the spec of its frame id");
+      }
+    } else {
+      checked.problems.push_back(stored.error().message);
+      return checked;
+    }
+    for (const std::string& complaint : wrong_contents(folder, *manifest, spec, wish, tracer_)) {
+      checked.problems.push_back((folder / "").string() + complaint);
+    }
+    return checked;
+  }
+
+  void take(const FrameRow& row, CheckedFrame checked) {
+    ++check_.frames;
+    check_.bytes += checked.bytes;
+    twins_.add(row);
+    if (checked.other_inputs) check_.other_inputs.push_back(row.frame);
+    for (std::string& problem : checked.problems) {
+      check_.problems.push_back({row.frame, std::move(problem)});
+    }
+    used_.add(checked.used);
+  }
+
+  /// What lies below frames/ and is no folder of a frame that the store knows.
+  void name_strange_frames() {
+    std::vector<std::string> strange;
+    std::error_code error;
+    const fs::path frames = campaign_.files.frames();
+    for (const auto& thousand : fs::directory_iterator(frames, error)) {
+      if (!thousand.is_directory()) {
+        strange.push_back(fs::relative(thousand.path(), campaign_.files.root()).string());
+        continue;
+      }
+      for (const auto& entry : fs::directory_iterator(thousand.path(), error)) {
+        const std::string name = entry.path().filename().string();
+        std::int64_t index = -1;
+        std::from_chars(name.data(), name.data() + name.size(), index);
+        const bool known =
+            index >= 0 && index < next_ && entry.path() == campaign_.files.frame(index);
+        if (!known) strange.push_back(fs::relative(entry.path(), campaign_.files.root()).string());
       }
     }
+    std::sort(strange.begin(), strange.end());
+    for (const std::string& path : strange) complain(path + " is of no frame");
   }
-  check.duplicates = twins.groups();
-  return check;
+
+  const Campaign& campaign_;
+  const PreparedCampaign& prepared_;
+  bool same_rays_;
+  TwinTracer tracer_;
+  FileCheck check_;
+  Twins twins_;
+  UsedFiles used_;
+  std::int64_t next_ = 0;  ///< index behind the last row that was seen
+};
+
+}  // namespace
+
+Result<FileCheck> check_files(const Campaign& campaign, const PreparedCampaign& prepared) {
+  const Result<bool> same_rays = traced_like_here(campaign.store);
+  if (!same_rays) return forward_error(same_rays);
+  return FilesOfCampaign(campaign, prepared, *same_rays).check();
 }
 
 }  // namespace seedframe

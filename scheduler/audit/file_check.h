@@ -21,12 +21,16 @@ struct FileCheck {
   };
   std::int64_t frames = 0;  ///< that are done; all were read
   std::uint64_t bytes = 0;
-  std::vector<Problem> problems;       ///< in the order of frames
-  std::vector<Duplicates> duplicates;  ///< in the order of their first frames
+  std::vector<Problem> problems;           ///< in the order of frames
+  std::vector<std::string> of_no_frame;    ///< problems of the campaign as a whole
+  std::vector<std::int64_t> other_inputs;  ///< done frames for which something else is asked today
+  std::vector<Duplicates> duplicates;      ///< in the order of their first frames
 };
 
 /// Reads every file of every frame that is done, on all cores, and compares it with its manifest,
-/// and the manifest with the store.
-Result<FileCheck> check_files(const Campaign& campaign);
+/// with what follows from the frame's spec and its other files (frame_contents.h), and the manifest
+/// with the store; the store with what the config makes; provenance.json with both. Files below
+/// frames/ that belong to nothing are problems, too. `prepared` may be used from several threads.
+Result<FileCheck> check_files(const Campaign& campaign, const PreparedCampaign& prepared);
 
 }  // namespace seedframe

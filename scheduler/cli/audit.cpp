@@ -46,7 +46,7 @@ Result<Conditions> conditions_to_vary(const AuditArguments& arguments,
 
 /// Files and exports that are not as they were written outweigh how a frame comes out today.
 ExitCode exit_code_of(const Audit& audit, const std::vector<AuditedExport>& exports) {
-  const bool whole = audit.files.problems.empty() &&
+  const bool whole = audit.files.problems.empty() && audit.files.of_no_frame.empty() &&
                      std::all_of(exports.begin(), exports.end(),
                                  [](const AuditedExport& each) { return each.is_whole(); });
   return whole ? exit_code(audit.grade()) : kExitCorrupt;
