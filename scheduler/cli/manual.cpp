@@ -23,7 +23,8 @@ ManualNotes notes() {
        {code(kExitInput),
         "the config, an argument or the output folder is wrong; nothing was "
         "written"},
-       {code(kExitSomeFailed), "the campaign ended, but some frames failed"},
+       {code(kExitSomeFailed),
+        "some frames failed, or some of several export formats are impossible"},
        {code(kExitEnvironment), "Blender, the disk or the system is not as needed"},
        {code(kExitCorrupt), "files are not as Seedframe wrote them"},
        {code(kExitRounding), "compared: labels identical, colours differ by rounding"},
