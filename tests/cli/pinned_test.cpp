@@ -75,7 +75,7 @@ camera: {target: [0, 0, 0], distance_m: {uniform: [0.2, 0.5]}}
   const Outcome exported = run(arguments);
   ASSERT_EQ(exported.exit_code, 0) << exported.errors;
   EXPECT_EQ(hash_of("c/exports"),
-            "c968b7c78733d2bf6d74934ae0bb649102645f62821254a037aebfe550741752");
+            "6d5bc50bc71e0d43e76ca77bd0b33e7176f31d0302b328d0e850b3d1d2d4a61c");
 }
 
 }  // namespace
