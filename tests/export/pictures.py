@@ -46,7 +46,9 @@ def check_placed(export, found):
         if not path.is_file() or not folders:
             continue
         source = found[path.stem]
-        assert path.suffix == (PLACED[folders[-1]] or source.suffix), path
+        # detectron2 and panopticapi look for .jpg beside the masks; readers go by the bytes.
+        ending = ".jpg" if export.name == "coco-panoptic" else PLACED[folders[-1]] or source.suffix
+        assert path.suffix == ending, path
         assert path.read_bytes() == source.read_bytes(), path
         PIL.Image.open(path).load()
         seen.append(path.stem)
