@@ -30,8 +30,8 @@ struct LevelMesh {
 
 struct Asset {
   std::string name;
-  std::string category;     ///< empty for a distractor
-  std::string description;  ///< one line, for people
+  std::string category;          ///< empty for a distractor
+  std::string description;       ///< one line, for people
   std::filesystem::path folder;  ///< that it was read from
   Mesh mesh;
   std::string buffer;                 ///< mesh_buffer(mesh), as a worker reads it

@@ -25,8 +25,8 @@ struct RunOptions {
   std::string blender = "blender";  ///< as find_blender takes it; becomes that of `worker`
   bool sandbox = false;             ///< see sandbox.h
   std::vector<std::filesystem::path> input_folders;  ///< what sandboxed workers read lies in them
-  bool no_cache = false;            ///< take no frame from the cache; frames are added all the same
-  double pause_limit_s = 600;       ///< to wait for room when the disk is full; 0: not at all
+  bool no_cache = false;       ///< take no frame from the cache; frames are added all the same
+  double pause_limit_s = 600;  ///< to wait for room when the disk is full; 0: not at all
   bool no_space_check = false;
   bool quiet = false;
 };

@@ -20,6 +20,7 @@
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/progress.h"
+#include "cli/say.h"
 #include "cli/verb.h"
 
 namespace seedframe {
@@ -128,13 +129,13 @@ int import_files(const Options& options) {
     if (options.json) {
       reports.push_back(import_json(*found));
     } else {
-      fmt::print("{}", import_text(*found, !options.import.dry_run));
+      say("{}", import_text(*found, !options.import.dry_run));
     }
   }
   if (options.json) {
     fmt::print("{}", readable_json(reports));
   } else if (options.root.empty() && imported > 0 && !options.import.dry_run) {
-    fmt::print("a config finds it by 'asset_folders: [{}]'\n", options.written_root().string());
+    say("a config finds it by 'asset_folders: [{}]'\n", options.written_root().string());
   }
   return failure != kExitOk && imported > 0 ? kExitSomeFailed : failure;
 }
@@ -165,13 +166,13 @@ int list_assets(const Options& options) {
     } else if (options.json) {
       list.push_back(list_json(*asset, folder));
     } else {
-      fmt::print("{}\n", list_line(*asset, folder));
+      say("{}\n", list_line(*asset, folder));
     }
   }
   if (options.json) {
     fmt::print("{}", readable_json(list));
   } else {
-    fmt::print("{} assets in {}\n", folders->size(), joined(options.read_roots()));
+    say("{} assets in {}\n", folders->size(), joined(options.read_roots()));
   }
   return exit_code;
 }
@@ -181,7 +182,7 @@ int draw_thumbnails(const Options& options) {
   if (!folders) return report(folders.error());
   for (const fs::path& folder : *folders) {
     if (Status drawn = draw_thumbnail(folder); !drawn) return report(drawn.error());
-    fmt::print("{}\n", (folder / asset_files::kThumbnail).string());
+    say("{}\n", (folder / asset_files::kThumbnail).string());
   }
   return 0;
 }
@@ -197,8 +198,7 @@ int check_assets(const Options& options) {
     for (const std::string& fault : faults) exit_code = report({ErrorKind::kCorrupt, fault});
     if (!faults.empty()) ++damaged;
   }
-  fmt::print("{} assets in {}, {} damaged\n", folders->size(), joined(options.read_roots()),
-             damaged);
+  say("{} assets in {}, {} damaged\n", folders->size(), joined(options.read_roots()), damaged);
   return exit_code;
 }
 
@@ -207,7 +207,7 @@ int remove_assets(const Options& options) {
   if (!folders) return report(folders.error());
   for (const fs::path& folder : *folders) {
     if (Status removed = remove_asset(folder); !removed) return report(removed.error());
-    fmt::print("removed {}\n", folder.string());
+    say("removed {}\n", folder.string());
   }
   return 0;
 }

@@ -73,15 +73,15 @@ Result<KeypointSet> parse(const KeypointArguments& arguments) {
 }
 
 void print(const Asset& asset) {
-  fmt::print("{}: {} keypoints\n", asset.name, asset.keypoints.points.size());
+  say("{}: {} keypoints\n", asset.name, asset.keypoints.points.size());
   for (const Keypoint& point : asset.keypoints.points) {
     const Eigen::Vector3d& at = point.point_m;
-    fmt::print("  {} at {:.6g} {:.6g} {:.6g} m{}\n", point.name, at.x(), at.y(), at.z(),
-               point.inside ? ", inside" : "");
+    say("  {} at {:.6g} {:.6g} {:.6g} m{}\n", point.name, at.x(), at.y(), at.z(),
+        point.inside ? ", inside" : "");
   }
-  for (const auto& [from, to] : asset.keypoints.skeleton) fmt::print("  line {}-{}\n", from, to);
+  for (const auto& [from, to] : asset.keypoints.skeleton) say("  line {}-{}\n", from, to);
   for (const auto& [left, right] : asset.keypoints.mirrored) {
-    fmt::print("  mirror {}-{}\n", left, right);
+    say("  mirror {}-{}\n", left, right);
   }
 }
 

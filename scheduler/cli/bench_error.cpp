@@ -7,7 +7,7 @@
 
 #include "base/cores.h"
 #include "base/files.h"
-#include "cli/allow_option.h"
+#include "cli/arguments.h"
 #include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"

@@ -10,7 +10,7 @@
 #include "campaign/input_images.h"
 #include "campaign/provenance.h"
 #include "campaign/run_setup.h"
-#include "cli/allow_option.h"
+#include "cli/arguments.h"
 #include "cli/blender_option.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"

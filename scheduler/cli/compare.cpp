@@ -7,7 +7,7 @@
 
 #include "audit/campaign_comparison.h"
 #include "base/message_text.h"
-#include "cli/argument_checks.h"
+#include "cli/arguments.h"
 #include "cli/exit_code.h"
 #include "cli/say.h"
 #include "cli/tolerance_options.h"

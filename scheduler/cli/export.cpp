@@ -11,9 +11,10 @@
 #include "base/cores.h"
 #include "base/nearest_name.h"
 #include "campaign/campaign.h"
-#include "cli/allow_option.h"
+#include "cli/arguments.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
+#include "cli/say.h"
 #include "cli/verb.h"
 #include "export/campaign_dataset.h"
 #include "export/export_index.h"
@@ -95,24 +96,23 @@ Result<ExportOptions> options_of(const ExportArguments& arguments) {
 }
 
 void print_summary(const ExportSummary& summary) {
-  fmt::print("{}: {}\n", summary.format, summary.folder.string());
+  say("{}: {}\n", summary.format, summary.folder.string());
   for (const SplitSummary& split : summary.splits) {
     const auto count = [&](Count which) { return at(split.counts, which); };
-    fmt::print("  {:<5} {} images ({} without annotations), {} annotations", split.split,
-               split.images, split.background_images, count(Count::kAnnotations));
+    say("  {:<5} {} images ({} without annotations), {} annotations", split.split, split.images,
+        split.background_images, count(Count::kAnnotations));
     for (const auto& [which, text] :
          {std::pair(Count::kTooSmall, "left out as too small"),
           std::pair(Count::kTooHidden, "left out as too hidden"),
           std::pair(Count::kDuplicateRows, "rows that loaders merge with another"),
           std::pair(Count::kLeftOutParts, "without fragments smaller than a bridge to them"),
           std::pair(Count::kOtherBoxes, "whose smallest rectangle leaves the image")}) {
-      if (count(which) > 0) fmt::print(", {} {}", count(which), text);
+      if (count(which) > 0) say(", {} {}", count(which), text);
     }
-    fmt::print("\n");
+    say("\n");
   }
   if (summary.reused > 0) {
-    fmt::print("  {} of {} frames are unchanged and were taken over\n", summary.reused,
-               summary.frames);
+    say("  {} of {} frames are unchanged and were taken over\n", summary.reused, summary.frames);
   }
 }
 
@@ -164,10 +164,10 @@ int verify_all(const Dataset& dataset, const std::vector<std::filesystem::path>&
   for (const std::filesystem::path& folder : folders) {
     const Result<VerifySummary> summary = verify_export(dataset, export_formats(), folder, workers);
     if (!summary) return report(summary.error());
-    fmt::print("{}: {} frames with {} annotations compared with their source, {}\n",
-               summary->format, summary->frames, summary->annotations,
-               summary->differences == 0 ? "all equal"
-                                         : fmt::format("{} differences", summary->differences));
+    say("{}: {} frames with {} annotations compared with their source, {}\n", summary->format,
+        summary->frames, summary->annotations,
+        summary->differences == 0 ? "all equal"
+                                  : fmt::format("{} differences", summary->differences));
     for (const std::string& difference : summary->first_differences) {
       code = report({ErrorKind::kCorrupt, fmt::format("{}: {}", summary->format, difference)});
     }

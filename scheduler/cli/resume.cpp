@@ -8,8 +8,7 @@
 
 #include "campaign/input_files.h"
 #include "campaign/input_images.h"
-#include "cli/allow_option.h"
-#include "cli/argument_checks.h"
+#include "cli/arguments.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/run_campaign.h"

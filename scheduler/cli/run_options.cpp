@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/run_setup.h"
-#include "cli/argument_checks.h"
+#include "cli/arguments.h"
 #include "cli/blender_option.h"
 #include "cli/home.h"
 #include "cli/say.h"

@@ -10,7 +10,7 @@
 #include "campaign/disk_space.h"
 #include "campaign/input_images.h"
 #include "campaign/run_setup.h"
-#include "cli/allow_option.h"
+#include "cli/arguments.h"
 #include "cli/choose_settings.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"

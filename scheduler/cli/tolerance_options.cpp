@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/argument_checks.h"
+#include "cli/arguments.h"
 
 namespace seedframe {
 

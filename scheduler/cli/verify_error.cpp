@@ -8,8 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/campaign.h"
-#include "cli/allow_option.h"
-#include "cli/argument_checks.h"
+#include "cli/arguments.h"
 #include "cli/exit_code.h"
 #include "cli/home.h"
 #include "cli/run_options.h"

@@ -116,7 +116,7 @@ class CocoPanoptic : public ExportFormat {
   /// "background", unless a class is called so.
   std::string background_name() const {
     const std::vector<std::string>& names = dataset_.categories;
-    const std::string name = "background";
+    std::string name = "background";
     if (std::find(names.begin(), names.end(), name) == names.end()) return name;
     return fmt::format("{}~{}", name, background_category());
   }

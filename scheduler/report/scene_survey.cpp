@@ -17,10 +17,10 @@ namespace {
 constexpr std::int64_t kMostFrames = 24;
 constexpr int kLargestSide = 160;     // pixels
 constexpr int kStep = 2;              // of pixels that are asked for coincident faces
-constexpr double kSmall_px = 25.0;    // of the whole picture: 5 × 5
+constexpr double kSmallPx = 25.0;     // of the whole picture: 5 × 5
 constexpr double kFilled = 0.95;      // of the picture, by what the camera is in
 constexpr double kOutOfScale = 20.0;  // an object's least side over its distance
-constexpr std::int64_t kCoincident_px = 4;
+constexpr std::int64_t kCoincidentPx = 4;
 
 /// As far apart as can be; and the second one, which should differ from the first.
 std::vector<std::int64_t> frames_to_see(std::int64_t count) {
@@ -208,7 +208,7 @@ void Surveyor::warn_of_sections(std::vector<std::string>& warnings) const {
           fmt::format("'{}' is in {}, and seen in none: it is out of view, "
                       "behind something, or tiny",
                       name, counted(section.frames, "frame")));
-    } else if (section.labelled && section.largest_px < kSmall_px) {
+    } else if (section.labelled && section.largest_px < kSmallPx) {
       warnings.push_back(fmt::format("'{}' never shows more than about {:.0f} pixels", name,
                                      std::max(1.0, section.largest_px)));
     }
@@ -241,7 +241,7 @@ std::vector<std::string> Surveyor::warnings() const {
   warn_of_cameras(warnings);
   warn_of_sections(warnings);
   for (const auto& [pair, pixels] : coincident_px_) {
-    if (pixels < kCoincident_px) continue;
+    if (pixels < kCoincidentPx) continue;
     const std::string who = pair.first == pair.second
                                 ? fmt::format("copies of '{}'", pair.first)
                                 : fmt::format("'{}' and '{}'", pair.first, pair.second);

@@ -17,7 +17,7 @@ namespace {
 /// positions have 16 bits.
 double flush_within_m(const PlacedInstance& instance) {
   const double size = (instance.world_from_object.linear() * instance.asset->box.size()).norm();
-  return std::clamp(2e-5 * size, 1e-6, kFlushGroundDrop_m / 2);
+  return std::clamp(2e-5 * size, 1e-6, kFlushGroundDropM / 2);
 }
 
 /// Whether a triangle lies in the plane z = 0 of the world.
@@ -60,7 +60,7 @@ void lower_flush_ground(FrameDraft& draft) {
   const bool flush = std::any_of(
       draft.placed.begin(), draft.placed.end(),
       [&](const PlacedInstance& instance) { return !is_ground(instance) && is_flush(instance); });
-  if (flush) ground->world_from_object.translation().z() -= kFlushGroundDrop_m;
+  if (flush) ground->world_from_object.translation().z() -= kFlushGroundDropM;
 }
 
 void GroundMaker::add(const CompiledGround& ground, const MaterialPicker& materials,

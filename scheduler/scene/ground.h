@@ -26,7 +26,7 @@ class GroundMaker {
   LastMade<Shape, GroundMesh> last_;
 };
 
-inline constexpr double kFlushGroundDrop_m = 1e-4;
+inline constexpr double kFlushGroundDropM = 1e-4;
 
 /// Where a face of an object lies in the plane of a level ground and could be seen there — a table
 /// top at z = 0, a sheet on the floor — neither would be seen before the other: the ground gives

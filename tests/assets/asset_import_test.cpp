@@ -28,7 +28,12 @@ class Import : public ::testing::Test {
   fs::path root() const { return folder_ / "assets"; }
 
   AssetImport request(const std::string& name) const {
-    return {.file = obj(), .root = root(), .name = name, .category = "tetrahedron", .description = "", .scale = 0.001};
+    return {.file = obj(),
+            .root = root(),
+            .name = name,
+            .category = "tetrahedron",
+            .description = "",
+            .scale = 0.001};
   }
 
   ScratchFolder folder_;

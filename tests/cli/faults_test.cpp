@@ -336,21 +336,6 @@ TEST_F(FaultsTest, AChangedConfigIsAnotherDatasetAndMadeAnew) {
   EXPECT_EQ(status("c").at("dataset_hash"), undisturbed_hash());
 }
 
-TEST_F(FaultsTest, MoreScenesAreMoreFramesOfTheSameCampaign) {
-  ASSERT_EQ(submit("{}").exit_code, 0);
-  const Outcome fewer = resume({"--set", "scenes=3"});
-  EXPECT_EQ(fewer.exit_code, 2);
-  EXPECT_THAT(fewer.errors, HasSubstr("the campaign has 12 frames, its config asks for 9 now"));
-  const Outcome outcome = resume({"--set", "scenes=5"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_THAT(outcome.errors, HasSubstr("3 frames are new"));
-  EXPECT_THAT(outcome.output, HasSubstr("15 of 15 frames are done (3 in this run"));
-  EXPECT_THAT(resume().output, HasSubstr("(0 in this run")) << "what was set is remembered";
-  std::string text = *read_file(folder_ / "faults.yaml");
-  write("faults.yaml", text.replace(text.find("scenes: 4"), 9, "scenes: 5"));
-  EXPECT_EQ(status("c").at("dataset_hash"), undisturbed_hash());
-}
-
 TEST_F(FaultsTest, AChangedAssetCostsExactlyTheFramesThatShowIt) {
   std::filesystem::create_directories(folder_ / "parts");
   std::filesystem::copy(SEEDFRAME_HOME "/assets/gear", folder_ / "parts/gear",

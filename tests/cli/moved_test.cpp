@@ -67,6 +67,22 @@ TEST_F(MovedTest, ExportsExplanationsAndComparisonsNeedNothingButTheCampaign) {
   EXPECT_EQ(run({"resume", "c"}).exit_code, 2) << "it would expand the config";
 }
 
+TEST_F(MovedTest, MoreScenesAreMoreFramesOfTheSameCampaign) {
+  const Outcome fewer = run({"resume", "project/c", "--set", "scenes=2"});
+  EXPECT_EQ(fewer.exit_code, 2);
+  EXPECT_THAT(fewer.errors, HasSubstr("the campaign has 3 frames, its config asks for 2 now"));
+  const Outcome outcome = run({"resume", "project/c", "--set", "scenes=5"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("2 frames are new"));
+  EXPECT_THAT(outcome.output, HasSubstr("5 of 5 frames are done (2 in this run"));
+  EXPECT_THAT(run({"resume", "project/c"}).output, HasSubstr("(0 in this run"))
+      << "it is remembered";
+  ASSERT_EQ(run({"submit", "project/scene.yaml", "-o", "whole", "--quiet", "--set", "scenes=5"})
+                .exit_code,
+            0);
+  EXPECT_EQ(status("project/c").at("dataset_hash"), status("whole").at("dataset_hash"));
+}
+
 TEST_F(MovedTest, ADamagedCopyIsNamed) {
   write("project/c/inputs/inputs.json", "{\"seedframe_inputs\": 1}");
   const Outcome outcome = export_to("project/c", "e");

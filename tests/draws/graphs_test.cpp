@@ -214,9 +214,10 @@ TEST_F(GraphsTest, ALongValueIsNotRepeatedInFull) {
 }
 
 TEST_F(GraphsTest, AListThatIsTooShortIsAnErrorOfTheFrame) {
-  EXPECT_THAT(error(R"({"objects.boxes.objects.lids.tilt": [1, 2, 3]})"),
-              HasSubstr("the graph gives 'objects.boxes.objects.lids.tilt' a list of 3, but there are "
-                        "more copies"));
+  EXPECT_THAT(
+      error(R"({"objects.boxes.objects.lids.tilt": [1, 2, 3]})"),
+      HasSubstr("the graph gives 'objects.boxes.objects.lids.tilt' a list of 3, but there are "
+                "more copies"));
 }
 
 TEST_F(GraphsTest, AnImpossibleValueIsAnErrorOfTheFrame) {

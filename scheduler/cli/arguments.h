@@ -1,4 +1,4 @@
-// The option --allow of the verbs that read what a config names.
+// What the arguments of several verbs have in common.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,24 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/message_text.h"
 #include "cli/home.h"
 
 namespace seedframe {
+
+/// A number that is 0 or more.
+class NotNegative : public CLI::Validator {
+ public:
+  NotNegative()
+      : Validator(
+            [](std::string& text) {
+              double value = 0.0;
+              const bool good = CLI::detail::lexical_cast(text, value) && value >= 0.0;
+              return good ? std::string()
+                          : "expected a number of 0 or more, found '" + shortened(text, 60) + "'";
+            },
+            "NONNEGATIVE") {}
+};
 
 inline void add_allow_option(CLI::App& verb, std::vector<std::string>& folders) {
   verb.add_option("--allow", folders,
