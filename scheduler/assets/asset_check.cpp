@@ -4,6 +4,8 @@
 
 #include "assets/asset_files.h"
 #include "assets/asset_level_file.h"
+#include "base/files.h"
+#include "base/sha256.h"
 #include "mesh/mesh_distance.h"
 #include "mesh/mesh_measure.h"
 
@@ -33,6 +35,7 @@ class Checker {
       compare_sizes(*mesh, description->levels[k]);
       meshes.push_back(std::move(*mesh));
     }
+    for (const auto& [slot, material] : description->materials) check_files_of(material);
     if (meshes[0].triangles.empty()) return faults_;
     compare_measures(measure_mesh(meshes[0]), description->measures);
     for (std::size_t k = 1; k < meshes.size(); ++k) {
@@ -53,6 +56,18 @@ class Checker {
   void expect_near(const char* key, double said, double found, double tolerance) {
     if (std::abs(said - found) <= tolerance) return;
     expect("measures", key, said, found);
+  }
+
+  void check_files_of(const AssetMaterial& material) {
+    for (const auto& [role, file] : material.files) {
+      const auto bytes = read_file(folder_ / file);
+      if (!bytes) {
+        faults_.push_back(bytes.error().message);
+      } else if (sha256_hex(*bytes) != material.spec.textures.at(role)) {
+        faults_.push_back(fmt::format("{} is damaged: its SHA-256 is not that of {}",
+                                      (folder_ / file).string(), asset_files::kDescription));
+      }
+    }
   }
 
   void compare_sizes(const Mesh& mesh, const LevelRecord& level) {

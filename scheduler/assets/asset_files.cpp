@@ -230,6 +230,11 @@ Result<AssetDescription> read_asset_description(const fs::path& folder) {
     if (!keypoints) return forward_error(keypoints);
     out.keypoints = std::move(*keypoints);
   }
+  if (const auto found = json->find("materials"); found != json->end()) {
+    auto materials = materials_from_json(*found, what + ": materials");
+    if (!materials) return forward_error(materials);
+    out.materials = std::move(*materials);
+  }
   if (Status status = check_description(out, folder, what); !status) return forward_error(status);
   return out;
 }
@@ -250,6 +255,7 @@ Json asset_json(const AssetDescription& asset) {
                {"measures", to_json(asset.measures, asset.self_intersections)},
                {"repairs", to_json(asset.repairs)}};
   if (!asset.keypoints.points.empty()) json["keypoints"] = to_json(asset.keypoints);
+  if (!asset.materials.empty()) json["materials"] = to_json(asset.materials);
   if (!asset.origin_m.isZero(0.0)) {
     json["origin_m"] = {asset.origin_m.x(), asset.origin_m.y(), asset.origin_m.z()};
   }
@@ -271,19 +277,20 @@ Status set_keypoints(const fs::path& folder, const KeypointSet& keypoints) {
 }
 
 Status write_asset(const fs::path& folder, const AssetDescription& asset,
-                   const std::vector<std::string>& streams, std::string_view thumbnail_png) {
+                   const std::map<std::string, std::string>& files) {
   // Hidden, so that no library takes it for an asset.
   const fs::path temporary = folder.parent_path() / ("." + asset.name + ".importing");
   std::error_code error;
   fs::remove_all(temporary, error);  // left by an import that was killed
   Status written = make_folders(temporary);
-  for (std::size_t k = 0; written && k < streams.size(); ++k) {
-    written = write_file(temporary / asset.levels[k].file, streams[k]);
+  for (auto file = files.begin(); written && file != files.end(); ++file) {
+    const fs::path path = temporary / file->first;
+    written = make_folders(path.parent_path());
+    if (written) written = write_file(path, file->second);
   }
   if (written) {
     written = write_file(temporary / asset_files::kDescription, readable_json(asset_json(asset)));
   }
-  if (written) written = write_file(temporary / asset_files::kThumbnail, thumbnail_png);
   if (written) written = commit_folder(temporary, folder);
   if (!written) fs::remove_all(temporary, error);
   return written;

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "assets/asset_materials.h"
 #include "assets/keypoints.h"
 #include "base/canonical_json.h"
 #include "base/error.h"
@@ -57,7 +59,8 @@ struct AssetDescription {
   RepairReport repairs;                ///< written, not read
   /// Where the imported file has the mesh's origin, metres, z up. Written, not read.
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
-  KeypointSet keypoints;  ///< may have none
+  KeypointSet keypoints;     ///< may have none
+  AssetMaterials materials;  ///< of slots; may have none
 };
 
 /// The name must be the folder's.
@@ -69,10 +72,10 @@ Json asset_json(const AssetDescription& asset);
 /// Puts other keypoints into asset.json and leaves the rest of it as it is.
 Status set_keypoints(const std::filesystem::path& folder, const KeypointSet& keypoints);
 
-/// Writes asset.json, the streams of all levels and the thumbnail; the folder appears, or is
-/// replaced, at once.
+/// Writes asset.json and the other files of the asset, by their names in the folder; it appears, or
+/// is replaced, at once.
 Status write_asset(const std::filesystem::path& folder, const AssetDescription& asset,
-                   const std::vector<std::string>& streams, std::string_view thumbnail_png);
+                   const std::map<std::string, std::string>& files);
 
 /// Removes an asset's folder, or the link to it; its name is gone at once.
 Status remove_asset(const std::filesystem::path& folder);

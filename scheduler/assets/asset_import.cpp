@@ -188,15 +188,18 @@ Result<ImportReport> import_asset(const AssetImport& request) {
   if (!crossings) return forward_error(crossings);
   asset.self_intersections = *crossings;
   asset.levels.reserve(levels->size());
-  std::vector<std::string> streams;
-  streams.reserve(levels->size());
+  begin("reading its images");
+  MadeMaterials made = make_materials(file->materials, asset.slots);
+  asset.materials = std::move(made.materials);
+  std::map<std::string, std::string>& files = made.files;
   for (const StoredLevel& level : *levels) {
     asset.levels.push_back(record_of(level, asset.levels.size()));
-    streams.push_back(level.stream);
+    files[asset.levels.back().file] = level.stream;
   }
   report.unit_was_guessed = !request.scale && !file->has_unit;
   report.not_kept = file->not_kept;
   report.warnings = file->dropped;
+  report.warnings.insert(report.warnings.end(), made.dropped.begin(), made.dropped.end());
   warn_of_size(request, *file, asset.measures, report.warnings);
   warn_of_up(request, *file, report.warnings);
   warn_of_rounding(*file, asset.measures.size_m, report.warnings);
@@ -209,8 +212,8 @@ Result<ImportReport> import_asset(const AssetImport& request) {
   }
   if (request.dry_run) return report;
   begin("writing it");
-  Status written =
-      write_asset(request.root / request.name, asset, streams, thumbnail_png(levels->front().mesh));
+  files[asset_files::kThumbnail] = thumbnail_png(levels->front().mesh);
+  Status written = write_asset(request.root / request.name, asset, files);
   if (!written) return forward_error(written);
   return report;
 }

@@ -72,6 +72,10 @@ Result<Asset> read_asset(const fs::path& folder) {
   }
   asset.box = bounding_box(asset.mesh);
   asset.keypoints = description->keypoints;
+  asset.materials = description->materials;
+  for (auto& [slot, material] : asset.materials) {
+    for (auto& [role, file] : material.files) file = (folder / file).string();
+  }
   asset.lowest = LowestPoint(asset.mesh);
   return asset;
 }

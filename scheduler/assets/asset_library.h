@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/asset_materials.h"
 #include "assets/keypoints.h"
 #include "base/allowed_folders.h"
 #include "base/error.h"
@@ -41,6 +42,7 @@ struct Asset {
   std::vector<LevelOfDetail> levels;  ///< at least one, finest first
   BoundingBox box;
   KeypointSet keypoints;
+  AssetMaterials materials;  ///< of slots, their files with the asset's folder; may have none
   LowestPoint lowest;
 
   /// See lowest_z(mesh, linear), but fast.

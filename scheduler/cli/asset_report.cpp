@@ -117,6 +117,11 @@ std::string import_text(const ImportReport& report, bool written) {
   text += fmt::format("  axes     {}\n", axes_text(asset.measures));
   text += fmt::format("  repairs  {}\n", repairs_text(asset.repairs));
   text += levels_text(asset);
+  if (!asset.materials.empty()) {
+    text +=
+        fmt::format("  looks    'material: own' gives {} of {} slots what the file gives them\n",
+                    asset.materials.size(), asset.slots.size());
+  }
   if (!report.not_kept.empty()) {
     text += fmt::format("  not kept {}\n", fmt::join(report.not_kept, "; "));
   }

@@ -13,6 +13,7 @@
 #include "base/files.h"
 #include "base/utf8.h"
 #include "mesh_files/byte_reader.h"
+#include "mesh_files/file_material.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -114,11 +115,12 @@ std::optional<std::uint64_t> gltf_index(const Json& object, const char* key,
 Result<GltfFile> GltfFile::open(const fs::path& path) {
   GltfFile file;
   file.name_ = path.string();
+  file.folder_ = path.parent_path();
   const auto bytes = read_file(path);
   if (!bytes) return forward_error(bytes);
   if (Status status = file.split_container(*bytes); !status) return forward_error(status);
   if (Status status = file.check_head(); !status) return forward_error(status);
-  if (Status status = file.load_buffers(path.parent_path()); !status) return forward_error(status);
+  if (Status status = file.load_buffers(); !status) return forward_error(status);
   return file;
 }
 
@@ -186,21 +188,21 @@ Result<const Json*> GltfFile::entry(const char* list, std::uint64_t index) const
   return &(*found)[index];
 }
 
-Status GltfFile::load_buffers(const fs::path& folder) {
+Status GltfFile::load_buffers() {
   const Json list = json_->value("buffers", Json::array());
   constexpr std::size_t kMostBuffers = 1024;
   if (!list.is_array() || list.size() > kMostBuffers) {
     return fail_at("buffers", "expected a list of at most {}", kMostBuffers);
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
-    auto bytes = load_buffer(list[i], i == 0, folder, fmt::format("buffers[{}]", i));
+    auto bytes = load_buffer(list[i], i == 0, fmt::format("buffers[{}]", i));
     if (!bytes) return forward_error(bytes);
     buffers_.push_back(std::move(*bytes));
   }
   return {};
 }
 
-Result<std::string> GltfFile::load_buffer(const Json& buffer, bool first, const fs::path& folder,
+Result<std::string> GltfFile::load_buffer(const Json& buffer, bool first,
                                           const std::string& place) const {
   const auto length = gltf_index(buffer, "byteLength");
   if (!length) return fail_at(place, "byteLength is missing or not a whole number");
@@ -210,30 +212,52 @@ Result<std::string> GltfFile::load_buffer(const Json& buffer, bool first, const 
     bytes = chunk_;
   } else if (!uri.is_string()) {
     return fail_at(place, "there are no bytes for it: expected a 'uri' or a binary chunk");
-  } else if (const auto text = uri.get<std::string>(); text.starts_with("data:")) {
-    const std::size_t comma = text.find(";base64,");
-    const auto decoded = comma == std::string::npos
-                             ? std::nullopt
-                             : decode_base64(std::string_view(text).substr(comma + 8));
-    if (!decoded) return fail_at(place, "expected data in base64");
-    bytes = *decoded;
   } else {
-    const fs::path relative = percent_decoded(text);
-    const fs::path path = folder / relative;
-    if (relative.empty() || relative.is_absolute() || text.find(':') != std::string::npos ||
-        text.find('\0') != std::string::npos || !AllowedFolders({folder}).check(path, text)) {
-      return fail_at(place, "'{}' is not a file in the folder of the glTF file",
-                     text.substr(0, 200));
-    }
-    auto read = read_file(path);
-    if (!read) return fail(ErrorKind::kInput, "{}: {}: {}", name_, place, read.error().message);
-    bytes = std::move(*read);
+    auto loaded = load_uri(uri.get<std::string>(), kLargestFile, place);
+    if (!loaded) return loaded;
+    bytes = std::move(*loaded);
   }
   if (bytes.size() < *length) {
     return fail_at(place, "cut short: {} bytes promised, {} found", *length, bytes.size());
   }
   bytes.resize(*length);
   return bytes;
+}
+
+Result<std::string> GltfFile::load_uri(const std::string& uri, std::uintmax_t most,
+                                       const std::string& place) const {
+  if (uri.starts_with("data:")) {
+    const std::size_t comma = uri.find(";base64,");
+    auto decoded = comma == std::string::npos
+                       ? std::nullopt
+                       : decode_base64(std::string_view(uri).substr(comma + 8));
+    if (!decoded) return fail_at(place, "expected data in base64");
+    return std::move(*decoded);
+  }
+  const fs::path relative = percent_decoded(uri);
+  const fs::path path = folder_ / relative;
+  if (relative.empty() || relative.is_absolute() || uri.find(':') != std::string::npos ||
+      uri.find('\0') != std::string::npos || !AllowedFolders({folder_}).check(path, uri)) {
+    return fail_at(place, "'{}' is not a file in the folder of the glTF file", uri.substr(0, 200));
+  }
+  auto read = read_file(path, most);
+  if (!read) return fail(ErrorKind::kInput, "{}: {}: {}", name_, place, read.error().message);
+  return read;
+}
+
+Result<std::string> GltfFile::read_image(std::uint64_t index) const {
+  const auto image = entry("images", index);
+  if (!image) return forward_error(image);
+  const std::string place = fmt::format("images[{}]", index);
+  if (const auto view = gltf_index(**image, "bufferView")) {
+    std::uint64_t stride = 0;
+    const auto bytes = view_bytes(*view, stride);
+    if (!bytes) return forward_error(bytes);
+    return std::string(*bytes);
+  }
+  const Json uri = (*image)->value("uri", Json());
+  if (!uri.is_string()) return fail_at(place, "expected a 'uri' or a 'bufferView'");
+  return load_uri(uri.get<std::string>(), kMostImageBytes, place);
 }
 
 // The bytes of bufferViews[index]; `stride` is left alone where it has none.

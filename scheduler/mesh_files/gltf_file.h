@@ -35,6 +35,9 @@ class GltfFile {
   };
   Result<Numbers> read_accessor(std::uint64_t index, std::uint64_t components) const;
 
+  /// The bytes of images[index], which are in the file, or in one of its folder or below it.
+  Result<std::string> read_image(std::uint64_t index) const;
+
   template <class... Args>
   tl::unexpected<Error> fail_at(const std::string& place, fmt::format_string<Args...> format,
                                 Args&&... args) const {
@@ -45,13 +48,14 @@ class GltfFile {
  private:
   Status split_container(std::string_view bytes);
   Status check_head() const;
-  Status load_buffers(const std::filesystem::path& folder);
-  Result<std::string> load_buffer(const Json& buffer, bool first,
-                                  const std::filesystem::path& folder,
-                                  const std::string& place) const;
+  Status load_buffers();
+  Result<std::string> load_buffer(const Json& buffer, bool first, const std::string& place) const;
+  Result<std::string> load_uri(const std::string& uri, std::uintmax_t most,
+                               const std::string& place) const;
   Result<std::string_view> view_bytes(std::uint64_t index, std::uint64_t& stride) const;
 
   std::string name_;
+  std::filesystem::path folder_;
   std::unique_ptr<const Json> json_;
   std::string chunk_;  ///< the binary chunk of a .glb
   bool has_chunk_ = false;

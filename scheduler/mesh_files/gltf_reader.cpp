@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "base/message_text.h"
 #include "mesh_files/gltf_file.h"
+#include "mesh_files/gltf_materials.h"
 #include "mesh_files/mesh_builder.h"
 #include "mesh_files/position_welder.h"
 
@@ -82,7 +84,8 @@ std::vector<std::array<std::uint64_t, 3>> triangles_of(std::uint64_t mode, std::
 
 class GltfParser {
  public:
-  explicit GltfParser(const GltfFile& file) : file_(file), builder_(file.name()) {}
+  explicit GltfParser(const GltfFile& file)
+      : file_(file), builder_(file.name()), materials_(file, builder_) {}
 
   Result<FileMesh> parse() {
     auto waiting = roots();
@@ -250,15 +253,6 @@ class GltfParser {
   void list_what_is_not_kept() {
     if (file_.json().contains("animations")) builder_.not_kept("animations");
     if (file_.json().contains("cameras")) builder_.not_kept("cameras");
-    const Json images = file_.json().value("images", Json::array());
-    for (const Json& image : images) {
-      const Json name =
-          image.is_object() ? image.value("uri", image.value("name", Json())) : Json();
-      const bool named = name.is_string() && !name.get<std::string>().starts_with("data:");
-      builder_.not_kept(named
-                            ? fmt::format("the image '{}'", shortened(name.get<std::string>(), 200))
-                            : std::string("images in the file"));
-    }
   }
 
   Result<std::vector<std::uint64_t>> corner_order(const Json& primitive, std::uint64_t corners,
@@ -296,14 +290,24 @@ class GltfParser {
     if (!material) builder_.drop("materials that are not in the file have a number only", place);
     const Json name = material ? (*material)->value("name", Json()) : Json();
     const bool named = name.is_string() && !name.get<std::string>().empty();
-    if (material && (*material)->size() > (*material)->count("name")) {
-      builder_.not_kept("materials (colours, roughness and the like)");
+    const auto known = slots_.find(*index);
+    if (known != slots_.end()) {
+      builder_.use_slot(known->second);
+      return;
     }
-    builder_.use_slot(named ? name.get<std::string>() : fmt::format("material{}", *index));
+    std::string slot = named ? name.get<std::string>() : fmt::format("material{}", *index);
+    // Materials may have one name.
+    if (!slot_names_.insert(slot).second) slot += fmt::format(" ({})", *index);
+    slots_.emplace(*index, slot);
+    builder_.use_slot(slot);
+    if (material) builder_.add_material(slot, materials_.read(**material));
   }
 
   const GltfFile& file_;
   MeshBuilder builder_;
+  GltfMaterials materials_;
+  std::map<std::uint64_t, std::string> slots_;  // by the number of the material
+  std::set<std::string> slot_names_;
   std::uint64_t corners_read_ = 0;
 };
 

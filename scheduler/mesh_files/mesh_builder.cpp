@@ -29,6 +29,10 @@ void MeshBuilder::use_slot(std::string_view name) {
   slot_ = slot->second;
 }
 
+void MeshBuilder::add_material(const std::string& slot, FileMaterial material) {
+  out_.materials.insert_or_assign(slot, std::move(material));
+}
+
 Status MeshBuilder::add_polygon(std::span<const PolygonCorner> corners, const std::string& place) {
   Mesh& mesh = out_.mesh;
   if (corners.size() < 3) {

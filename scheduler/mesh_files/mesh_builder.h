@@ -45,6 +45,8 @@ class MeshBuilder {
   std::uint32_t add_position(const std::array<double, 3>& position);
   /// Its index. One that no float can hold is dropped: (0, 0) stands for it.
   std::uint32_t add_uv(const std::array<double, 2>& uv, std::string_view place);
+  /// What the slot of that name looks like in the file.
+  void add_material(const std::string& slot, FileMaterial material);
   /// Polygons that follow are of this slot; "default" without one. A name that is not UTF-8 is
   /// taken for Latin-1.
   void use_slot(std::string_view name);

@@ -120,6 +120,7 @@ MeshFile placed(FileMesh file, const MeshFileOptions& options) {
     out.mesh.positions.push_back({seen.x(), seen.y(), seen.z()});
   }
   out.spacing_m = file.spacing * options.scale;
+  out.materials = std::move(file.materials);
   out.dropped = std::move(file.dropped);
   out.not_kept = std::move(file.not_kept);
   return out;

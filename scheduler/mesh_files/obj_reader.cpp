@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "base/files.h"
-#include "base/message_text.h"
+#include "mesh_files/beside_files.h"
 #include "mesh_files/mesh_builder.h"
+#include "mesh_files/mtl_reader.h"
 #include "mesh_files/text_scanner.h"
 
 namespace seedframe {
@@ -19,7 +20,8 @@ namespace {
 
 class ObjParser {
  public:
-  explicit ObjParser(const std::string& file) : builder_(file) {}
+  explicit ObjParser(const std::filesystem::path& path)
+      : builder_(path.string()), files_(path, builder_) {}
 
   Result<FileMesh> parse(const std::string& text) {
     std::string_view rest = without_byte_order_mark(text);
@@ -72,7 +74,9 @@ class ObjParser {
     if (keyword == "vn") {
       builder_.not_kept(kNormals);
     } else if (keyword == "mtllib") {
-      builder_.not_kept(fmt::format("materials and images of '{}'", shortened(rest, 200)));
+      for (auto& [name, material] : read_mtl(std::string(rest), files_, builder_)) {
+        builder_.add_material(name, std::move(material));
+      }
     } else if (keyword == "usemap") {
       builder_.not_kept("images ('usemap')");
     } else if (is_one_of({"p", "l"})) {
@@ -180,6 +184,7 @@ class ObjParser {
   std::size_t next_line_number_ = 1;
   std::vector<PolygonCorner> corners_;
   MeshBuilder builder_;
+  BesideFiles files_;
 };
 
 }  // namespace
@@ -187,7 +192,7 @@ class ObjParser {
 Result<FileMesh> read_obj(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return forward_error(text);
-  return ObjParser(path.string()).parse(*text);
+  return ObjParser(path).parse(*text);
 }
 
 }  // namespace seedframe

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/files.h"
-#include "base/message_text.h"
+#include "mesh_files/beside_files.h"
 #include "mesh_files/byte_reader.h"
 #include "mesh_files/mesh_builder.h"
 #include "mesh_files/ply_header.h"
@@ -52,19 +52,18 @@ using Values = std::vector<double>;
 
 class PlyParser {
  public:
-  explicit PlyParser(const std::string& file) : file_(file), builder_(file) {}
+  explicit PlyParser(const std::filesystem::path& path)
+      : file_(path.string()), builder_(file_), files_(path, builder_) {}
 
   Result<FileMesh> parse(std::string_view bytes) {
     rest_ = bytes;
     auto header = take_ply_header(rest_, file_);
     if (!header) return forward_error(header);
     format_ = header->format;
-    for (const std::string& image : header->images) {
-      builder_.not_kept(fmt::format("the image '{}'", shortened(image, 200)));
-    }
     for (const PlyElement& element : header->elements) {
       if (Status status = parse_element(element); !status) return forward_error(status);
     }
+    add_images(header->images);
     return builder_.finish("an element 'face' with a list 'vertex_indices'");
   }
 
@@ -114,6 +113,19 @@ class PlyParser {
       }
     }
     return {};
+  }
+
+  // Of the material of each number; of all, without numbers.
+  void add_images(const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      auto image = files_.image(names[i]);
+      if (!image) continue;
+      FileMaterial material;
+      material.base_color = {1.0, 1.0, 1.0};
+      material.textures["color"].image = std::move(image);
+      builder_.add_material(fmt::format("material{}", i), material);
+      if (i == 0) builder_.add_material("default", material);
+    }
   }
 
   void list_what_is_not_kept(const PlyElement& element) {
@@ -233,6 +245,7 @@ class PlyParser {
 
   std::string file_;
   MeshBuilder builder_;
+  BesideFiles files_;
   std::string_view rest_;
   PlyHeader::Format format_ = PlyHeader::Format::kText;
   bool floats_ = false;                      // coordinates are stored as 32-bit floats
@@ -248,7 +261,7 @@ class PlyParser {
 Result<FileMesh> read_ply(const std::filesystem::path& path) {
   const auto bytes = read_file(path);
   if (!bytes) return forward_error(bytes);
-  return PlyParser(path.string()).parse(*bytes);
+  return PlyParser(path).parse(*bytes);
 }
 
 }  // namespace seedframe

@@ -82,11 +82,12 @@ class Compiler {
     }
     if (!config_.ground) return;
     const SectionCompiler section(scope_, "ground", config_.ground->redraw, errors_);
-    compiled_.ground = CompiledGround{
-        section.number(config_.ground->width_m, "width_m"),
-        section.number(config_.ground->depth_m, "depth_m"),
-        section.number(config_.ground->curvature_per_m, "curvature_per_m"),
-        section.materials(config_.ground->material, materials_, "material"), config_.ground->place};
+    compiled_.ground =
+        CompiledGround{section.number(config_.ground->width_m, "width_m"),
+                       section.number(config_.ground->depth_m, "depth_m"),
+                       section.number(config_.ground->curvature_per_m, "curvature_per_m"),
+                       section.materials(config_.ground->material, materials_, "material", false),
+                       config_.ground->place};
   }
 
   void compile_camera() {
@@ -153,11 +154,12 @@ class Compiler {
     object.category_of_asset = config.category_of_asset;
     object.material_of_parent = config.material_of_parent;
     if (!config.material_of_parent && (config.asset || config.has_material)) {
-      object.materials = section.materials(config.material, materials_, "material");
+      object.materials =
+          section.materials(config.material, materials_, "material", config.asset.has_value());
     }
     if (config.asset) {
       for (const auto& [slot, source] : config.slots) {
-        object.slots.emplace(slot, section.materials(source, materials_, "slots." + slot));
+        object.slots.emplace(slot, section.materials(source, materials_, "slots." + slot, true));
       }
     }
     object.scale = section.vector(config.scale, "scale");

@@ -29,12 +29,16 @@ struct CompiledShare {
   std::vector<std::string> realistic, parametric;
 };
 
+/// As a material's name: what the asset's slots look like in the file that it was imported from.
+inline constexpr std::string_view kOwnMaterial = "own";
+
 /// The materials that one object (or slot, or the ground) may get, with draws of its own.
 struct CompiledMaterials {
   std::string key;  ///< of the draw
   Place place;
   std::variant<NameDraw, CompiledShare> choice;
   std::map<std::string, CompiledMaterial> by_name;
+  bool can_be_own = false;  ///< the choice may be kOwnMaterial, and no material is named so
 };
 
 struct CompiledGrid {

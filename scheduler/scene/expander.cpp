@@ -40,7 +40,7 @@ class SceneExpander::Program {
     return seedframe::offered_assets(compiled_.objects, placer_.assets(), config_.categories);
   }
   std::vector<OfferedImage> offered_images() const {
-    return seedframe::offered_images(compiled_, materials_.library());
+    return seedframe::offered_images(compiled_, materials_.library(), placer_.assets());
   }
   const AllowedFolders& allowed() const { return materials_.library().allowed(); }
 

@@ -90,7 +90,7 @@ void GroundMaker::add(const CompiledGround& ground, const MaterialPicker& materi
   PlacedInstance instance;
   instance.spec.name = "ground";
   instance.spec.mesh = made->sha256;
-  instance.spec.materials = {materials.add(ground.materials, draft, context)};
+  instance.spec.materials = {materials.add(ground.materials, nullptr, draft, context)};
   instance.buffer = {made, &made->buffer};
   draft.placed.push_back(std::move(instance));
 }

@@ -28,9 +28,24 @@ std::string MaterialPicker::draw_name_of(const CompiledMaterials& materials,
   return name;
 }
 
-int MaterialPicker::add(const CompiledMaterials& materials, FrameDraft& draft,
-                        EvaluationContext& context) const {
+namespace {
+
+int index_of(MaterialSpec material, std::vector<MaterialSpec>& known) {
+  const auto same = std::find(known.begin(), known.end(), material);
+  if (same != known.end()) return static_cast<int>(same - known.begin());
+  known.push_back(std::move(material));
+  return static_cast<int>(known.size()) - 1;
+}
+
+}  // namespace
+
+int MaterialPicker::add(const CompiledMaterials& materials, const AssetSlot* slot,
+                        FrameDraft& draft, EvaluationContext& context) const {
   const std::string name = draw_name_of(materials, context);
+  if (slot != nullptr && materials.can_be_own && name == kOwnMaterial) {
+    return index_of(own_material(*slot, materials.place, draft.used, context),
+                    draft.spec.materials);
+  }
   const auto found = materials.by_name.find(name);
   if (found == materials.by_name.end()) {
     context.report(materials.place, library_.no_material(name));
@@ -48,15 +63,33 @@ int MaterialPicker::add(const CompiledMaterials& materials, FrameDraft& draft,
   material.texture_repeat = positive(source.texture_repeat, "texture_repeat", context);
   if (source.textures) {
     // The material of a texture set stands in no file: then it is the user of it who is named.
-    const Place& own = source.textures->place();
-    add_textures(source.textures->evaluate(context), own.file.empty() ? materials.place : own,
+    const Place& named = source.textures->place();
+    add_textures(source.textures->evaluate(context), named.file.empty() ? materials.place : named,
                  material, draft.used, context);
   }
-  std::vector<MaterialSpec>& known = draft.spec.materials;
-  const auto same = std::find(known.begin(), known.end(), material);
-  if (same != known.end()) return static_cast<int>(same - known.begin());
-  known.push_back(std::move(material));
-  return static_cast<int>(known.size()) - 1;
+  return index_of(std::move(material), draft.spec.materials);
+}
+
+MaterialSpec MaterialPicker::own_material(const AssetSlot& slot, const Place& place,
+                                          UsedFiles& used, EvaluationContext& context) const {
+  const AssetMaterials& own = slot.asset.materials;
+  if (own.empty()) {
+    context.report(place, fmt::format("the asset '{}' has no materials of its own: the file that "
+                                      "it was imported from has none; name another material",
+                                      slot.asset.name));
+  }
+  MaterialSpec material;
+  material.base_color = {0.8, 0.8, 0.8};
+  const auto found = own.find(slot.name);
+  if (found == own.end()) return material;
+  material = found->second.spec;
+  for (const auto& [role, file] : found->second.files) {
+    if (use(file, place, used, context) == material.textures.at(role)) continue;
+    context.report(place, file +
+                              " is damaged: asset.json says another SHA-256; import the asset "
+                              "again");
+  }
+  return material;
 }
 
 void MaterialPicker::add_textures(const std::string& set, const Place& place,

@@ -4,12 +4,19 @@
 #include <memory>
 #include <string>
 
+#include "assets/asset_library.h"
 #include "base/file_hashes.h"
 #include "scene/compiled_config.h"
 #include "scene/frame_draft.h"
 #include "scene/material_library.h"
 
 namespace seedframe {
+
+/// What gets a material.
+struct AssetSlot {
+  const Asset& asset;
+  const std::string& name;
+};
 
 /// Safe to use from several threads.
 class MaterialPicker {
@@ -19,14 +26,19 @@ class MaterialPicker {
 
   const MaterialLibrary& library() const { return library_; }
 
-  /// Draws a material; returns its index in the spec's materials, where equal ones are one.
-  int add(const CompiledMaterials& materials, FrameDraft& draft, EvaluationContext& context) const;
+  /// Draws a material; returns its index in the spec's materials, where equal ones are one. Without
+  /// a slot of an asset the draw cannot be kOwnMaterial.
+  int add(const CompiledMaterials& materials, const AssetSlot* slot, FrameDraft& draft,
+          EvaluationContext& context) const;
 
   /// SHA-256 of an environment map's file, by its name.
   std::string hdri(const NameDraw& draw, FrameDraft& draft, EvaluationContext& context) const;
 
  private:
   std::string draw_name_of(const CompiledMaterials& materials, EvaluationContext& context) const;
+  /// Plain grey for a slot that has none; an error if no slot of the asset has one.
+  MaterialSpec own_material(const AssetSlot& slot, const Place& place, UsedFiles& used,
+                            EvaluationContext& context) const;
   void add_textures(const std::string& set, const Place& place, MaterialSpec& material,
                     UsedFiles& used, EvaluationContext& context) const;
   /// The SHA-256 of an image file, which becomes one of those used.

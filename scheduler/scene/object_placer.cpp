@@ -241,7 +241,7 @@ void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3
   if (asset) place_instance(object, asset, {name, world_from_object}, material, pass);
   if (object.objects.empty()) return;
   if (material < 0 && object.material_for_objects) {
-    material = pass.materials.add(object.materials, pass.draft, context);
+    material = pass.materials.add(object.materials, nullptr, pass.draft, context);
   }
   Parent group{world_from_object, context.copy, name + "/", material, {}};
   for (const CompiledObject& child : object.objects) {
@@ -316,13 +316,20 @@ void ObjectPlacer::choose_levels(FrameDraft& draft, EvaluationContext& context) 
 std::vector<int> ObjectPlacer::slot_materials(const CompiledObject& object, const Asset& asset,
                                               int& common, Pass& pass) {
   std::vector<int> materials;
+  auto* const record = pass.context.record;
   for (const std::string& slot : asset.mesh.slot_names) {
-    const auto own = object.slots.find(slot);
-    if (own != object.slots.end()) {
-      materials.push_back(pass.materials.add(own->second, pass.draft, pass.context));
+    const AssetSlot of_asset{asset, slot};
+    const auto special = object.slots.find(slot);
+    if (special != object.slots.end()) {
+      materials.push_back(pass.materials.add(special->second, &of_asset, pass.draft, pass.context));
       continue;
     }
-    if (common < 0) common = pass.materials.add(object.materials, pass.draft, pass.context);
+    // The same draw for all slots; if it says that they have their own, each has another.
+    if (common < 0 || object.materials.can_be_own) {
+      if (common >= 0) pass.context.record = nullptr;
+      common = pass.materials.add(object.materials, &of_asset, pass.draft, pass.context);
+      pass.context.record = record;
+    }
     materials.push_back(common);
   }
   return materials;

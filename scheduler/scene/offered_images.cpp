@@ -8,11 +8,17 @@ namespace {
 
 class Collector {
  public:
-  explicit Collector(const MaterialLibrary& library) : library_(library) {}
+  Collector(const MaterialLibrary& library, const AssetLibrary& assets)
+      : library_(library), assets_(assets) {}
 
   void add(const CompiledObject& object) {
     if (object.asset) add(object.materials);
-    for (const auto& [slot, materials] : object.slots) add(materials);
+    bool can_be_own = object.materials.can_be_own;
+    for (const auto& [slot, materials] : object.slots) {
+      add(materials);
+      can_be_own = can_be_own || materials.can_be_own;
+    }
+    if (object.asset && can_be_own) add_own(*object.asset, object.materials.place);
     for (const CompiledObject& child : object.objects) add(child);
   }
 
@@ -41,6 +47,19 @@ class Collector {
   std::vector<OfferedImage> take() { return std::move(images_); }
 
  private:
+  // Assets that cannot be loaded are somebody else's error.
+  void add_own(const NameDraw& asset, const Place& place) {
+    for (const std::string& name : asset.possible_values().value_or(assets_.names())) {
+      const auto loaded = assets_.load(name);
+      if (!loaded) continue;
+      for (const auto& [slot, material] : (*loaded)->materials) {
+        for (const auto& [role, file] : material.files) {
+          add_file(file, role == "color" ? ImageUse::kColor : ImageUse::kData, place);
+        }
+      }
+    }
+  }
+
   void add_set(const std::string& name, const Place& place) {
     const auto found = library_.texture_sets().find(name);
     if (found == library_.texture_sets().end()) return;
@@ -54,6 +73,7 @@ class Collector {
   }
 
   const MaterialLibrary& library_;
+  const AssetLibrary& assets_;
   std::vector<OfferedImage> images_;
   std::set<std::pair<std::filesystem::path, ImageUse>> seen_;
 };
@@ -61,8 +81,9 @@ class Collector {
 }  // namespace
 
 std::vector<OfferedImage> offered_images(const CompiledConfig& config,
-                                         const MaterialLibrary& library) {
-  Collector collector(library);
+                                         const MaterialLibrary& library,
+                                         const AssetLibrary& assets) {
+  Collector collector(library, assets);
   collector.add(config.world);
   if (config.ground) collector.add(config.ground->materials);
   for (const CompiledObject& object : config.objects) collector.add(object);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "assets/asset_library.h"
 #include "assets/offered_image.h"
 #include "scene/compiled_config.h"
 
@@ -11,6 +12,7 @@ namespace seedframe {
 /// Each file once for each use, in the order of the config. Where only a draw tells the name, every
 /// possibility is offered.
 std::vector<OfferedImage> offered_images(const CompiledConfig& config,
-                                         const MaterialLibrary& library);
+                                         const MaterialLibrary& library,
+                                         const AssetLibrary& assets);
 
 }  // namespace seedframe

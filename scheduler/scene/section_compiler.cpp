@@ -1,5 +1,7 @@
 #include "scene/section_compiler.h"
 
+#include <algorithm>
+
 namespace seedframe {
 
 CompiledMaterial SectionCompiler::material(const MaterialConfig& config,
@@ -24,8 +26,8 @@ CompiledMaterial SectionCompiler::material(const MaterialConfig& config,
 }
 
 CompiledMaterials SectionCompiler::materials(const MaterialSource& source,
-                                             const MaterialLibrary& library,
-                                             const std::string& key) const {
+                                             const MaterialLibrary& library, const std::string& key,
+                                             bool has_asset) const {
   CompiledMaterials result;
   result.key = section_ + "." + key;
   std::vector<std::string> wanted;
@@ -41,7 +43,12 @@ CompiledMaterials SectionCompiler::materials(const MaterialSource& source,
     result.place = draw.place();
     const auto possible = draw.possible_values();
     wanted = possible.value_or(library.material_names());
-    refuse_unknown(draw, library.materials(), library, &MaterialLibrary::no_material);
+    refuse_unknown(draw, library.materials(), library, &MaterialLibrary::no_material,
+                   has_asset ? kOwnMaterial : std::string_view());
+    const bool can_be_own =
+        !possible || std::find(possible->begin(), possible->end(), kOwnMaterial) != possible->end();
+    result.can_be_own =
+        has_asset && can_be_own && !library.materials().contains(std::string(kOwnMaterial));
     result.choice = draw;
   }
   const SectionCompiler inner(scope_, result.key, level_, errors_);

@@ -39,18 +39,22 @@ class SectionCompiler {
 
   CompiledMaterial material(const MaterialConfig& config, const MaterialLibrary& library) const;
   /// Only the materials that the source can become, for each is compiled anew.
+  /// Whoever has no asset cannot have its materials (kOwnMaterial).
   CompiledMaterials materials(const MaterialSource& source, const MaterialLibrary& library,
-                              const std::string& key) const;
+                              const std::string& key, bool has_asset) const;
   std::optional<CompiledGrid> grid(const std::optional<GridConfig>& config) const;
 
-  /// An error for each name that the draw can become and that is not known; `missing` words it.
+  /// An error for each name that the draw can become and that is neither known nor `besides`;
+  /// `missing` words it.
   template <class Known>
   void refuse_unknown(const NameDraw& draw, const Known& known, const MaterialLibrary& library,
-                      std::string (MaterialLibrary::*missing)(const std::string&) const) const {
+                      std::string (MaterialLibrary::*missing)(const std::string&) const,
+                      std::string_view besides = {}) const {
     const auto possible = draw.possible_values();
     if (!possible) return;
     for (const std::string& value : *possible) {
-      if (!known.contains(value)) errors_.add(draw.place(), (library.*missing)(value));
+      if (known.contains(value) || (!value.empty() && value == besides)) continue;
+      errors_.add(draw.place(), (library.*missing)(value));
     }
   }
 

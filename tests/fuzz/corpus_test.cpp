@@ -76,6 +76,7 @@ constexpr Target kTargets[] = {
     {"config", fuzz_config},       {"frame_spec", fuzz_frame_spec},
     {"protocol", fuzz_protocol},   {"job_manifest", fuzz_job_manifest},
     {"exr_front", fuzz_exr_front}, {"draco_front", fuzz_draco_front},
+    {"materials", fuzz_materials},
 };
 INSTANTIATE_TEST_SUITE_P(Targets, FuzzCorpus, ::testing::ValuesIn(kTargets),
                          [](const auto& test) { return std::string(test.param.name); });

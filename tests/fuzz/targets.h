@@ -18,5 +18,7 @@ void fuzz_job_manifest(std::string_view bytes);
 void fuzz_exr_front(std::string_view bytes);
 /// An asset's mesh: a Draco stream, or a mesh buffer.
 void fuzz_draco_front(std::string_view bytes);
+/// The materials of a mesh file (.mtl), or those that an asset.json keeps.
+void fuzz_materials(std::string_view bytes);
 
 }  // namespace seedframe
