@@ -15,8 +15,8 @@ case ${1:-} in
   5.0) module=5.0.1 ;;
   5.2)
     module=5.2.3 abi=3.13 numpy=2.1.3
-    python=$(command -v python3.13) ||
-      { echo "blender_wheels.sh: Blender 5.2 needs Python 3.13, and there is no python3.13 in PATH" >&2; exit 4; }
+    python=$(command -v python3.13) && "$python" -c "import venv" 2>/dev/null ||
+      { echo "blender_wheels.sh: Blender 5.2 needs Python 3.13, and no python3.13 in PATH works" >&2; exit 4; }
     ;;
   *) echo "blender_wheels.sh: expected 4.2, 4.5, 5.0 or 5.2, got '${1:-}'" >&2; exit 2 ;;
 esac

@@ -5,7 +5,7 @@
 #   scripts/setup.sh                packages, a release build, a link to it in PATH, and Blender 4.5 as the one that is
 #                                   used unless another is named; where it cannot be had, Debian's 3.4.1 is
 #   scripts/setup.sh --packages     packages only
-#   scripts/setup.sh --blender 4.5  what Blender 4.5 (or 4.2, or 5.0) needs, and it: venv/blender-4.5
+#   scripts/setup.sh --blender 4.5  what Blender 4.5 (or 4.2, or 5.0; or 5.2, with a Python 3.13) needs, and it: venv/blender-4.5
 set -eu
 cd "$(dirname "$0")/.."
 

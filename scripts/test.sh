@@ -4,7 +4,7 @@
 #
 #   scripts/test.sh            all
 #   scripts/test.sh unit       unit tests of the release build only, and exports read by small programs from PyPI
-#   scripts/test.sh versions   what depends on Blender's version, with 4.2 and 5.0
+#   scripts/test.sh versions   what depends on Blender's version, with 4.2 and 5.0, and with 5.2 where there is a Python 3.13
 set -u
 cd "$(dirname "$0")/.."
 export SEEDFRAME_CACHE=off  # what is rendered here is rendered
@@ -52,7 +52,7 @@ run_version() { # of Blender: as a module of Python, if it can be installed
     SEEDFRAME_BLENDER=blender
   else
     skipped=$((skipped + 1))
-    echo "SKIPPED: all tests with Blender $1, which could not be installed (is PyPI reached from here?)"
+    echo "SKIPPED: all tests with Blender $1, which could not be installed (why stands above)"
   fi
 }
 
@@ -84,7 +84,7 @@ if [ "$what" = all ]; then
   trap 'exit 130' INT TERM
 fi
 if [ "$what" = versions ]; then
-  for version in 4.2 5.0; do run_version "$version"; done
+  for version in 4.2 5.0 5.2; do run_version "$version"; done
 else
   echo "== unit tests"
   run_tests release unit "$at_once"

@@ -18,7 +18,7 @@ constexpr auto kProbeTimeout = std::chrono::seconds(60);  // a cold disk is slow
 struct Release {
   int major, minor;
 };
-constexpr std::array<Release, 4> kTested = {{{3, 4}, {4, 2}, {4, 5}, {5, 0}}};
+constexpr std::array<Release, 5> kTested = {{{3, 4}, {4, 2}, {4, 5}, {5, 0}, {5, 2}}};
 
 Result<std::string> version_text(const BlenderProgram& program) {
   if (program.module.empty()) {

@@ -27,7 +27,7 @@ TEST(BlenderInfo, ReadsVersions) {
   EXPECT_EQ(lts->minor, 2);
   EXPECT_TRUE(lts->tested);
   EXPECT_FALSE(parse_blender_version("Blender 4.3.0")->tested);
-  EXPECT_EQ(tested_blender_versions(), "3.4, 4.2, 4.5 and 5.0");
+  EXPECT_EQ(tested_blender_versions(), "3.4, 4.2, 4.5, 5.0 and 5.2");
   EXPECT_TRUE(parse_blender_version("Blender 3.3.0"));
 }
 
