@@ -10,7 +10,7 @@
 #include "audit/provenance_check.h"
 #include "base/files.h"
 #include "frames/frame_contents.h"
-#include "spec/frame_spec_reader.h"
+#include "frames/frame_reader.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -45,15 +45,6 @@ class Twins {
   std::unordered_map<std::string, std::pair<std::int64_t, std::string>> first_;
   std::map<std::int64_t, FileCheck::Duplicates> groups_;
 };
-
-Result<FrameSpec> stored_spec(const fs::path& folder) {
-  const fs::path path = folder / frame_files::kSpec;
-  const auto text = read_file(path);
-  if (!text) return forward_error(text);
-  const auto json = parse_json(*text, path.string());
-  if (!json) return forward_error(json);
-  return frame_spec_from_json(*json, path.string());
-}
 
 class FilesOfCampaign {
  public:

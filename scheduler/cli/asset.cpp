@@ -121,7 +121,9 @@ int import_files(const Options& options) {
   for (const std::string& file : options.files) {
     const auto found = import_file(options, file);
     if (!found) {
-      const int code = report(found.error());
+      const ExitCode code = exit_code(found.error().kind);
+      const Json error = told_error(found.error().message, code);
+      if (options.json) reports.push_back({{"file", as_utf8(file)}, {"error", error}});
       if (failure == kExitOk) failure = code;
       continue;
     }

@@ -44,8 +44,9 @@ inline ExitCode exit_code(ErrorKind kind) {
 /// Set where the arguments ask for JSON: then standard output says what went wrong, too.
 inline bool errors_as_json = false;
 
-/// Prints a line "seedframe: error: …" for each line of a message, and returns the code.
-inline int report(const std::string& message, ExitCode code) {
+/// What JSON says of an error, after a line "seedframe: error: …" on standard error for each line
+/// of it.
+inline Json told_error(const std::string& message, ExitCode code) {
   Json messages = Json::array();
   std::size_t start = 0;
   while (start <= message.size()) {
@@ -54,8 +55,13 @@ inline int report(const std::string& message, ExitCode code) {
     std::fprintf(stderr, "seedframe: error: %s\n", messages.back().get<std::string>().c_str());
     start = end + 1;
   }
+  return {{"exit_code", static_cast<int>(code)}, {"messages", messages}};
+}
+
+/// Prints an error, and returns its code.
+inline int report(const std::string& message, ExitCode code) {
+  const Json told = {{"error", told_error(message, code)}};
   if (errors_as_json) {
-    const Json told = {{"error", {{"exit_code", static_cast<int>(code)}, {"messages", messages}}}};
     std::printf("%s\n", told.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
   }
   return code;

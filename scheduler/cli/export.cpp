@@ -122,7 +122,7 @@ void print_warnings(const std::vector<ExportSummary>& summaries) {
   for (const ExportSummary& summary : summaries) {
     for (const std::string& warning : summary.warnings) {
       if (!told.insert(warning).second) continue;
-      std::fprintf(stderr, "seedframe: note: %s\n", warning.c_str());
+      say_aside("seedframe: note: {}\n", warning);
     }
   }
 }

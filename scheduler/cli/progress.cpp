@@ -96,9 +96,9 @@ void Progress::attempt_failed(const FrameJob& job, const AttemptFailure& failure
   const char* next = failure.consequence == Consequence::kQuarantined ? " and is quarantined"
                      : final                                          ? " for good"
                                                                       : ", trying again";
-  std::fprintf(stderr, "frame %lld, attempt %d %s%s: %s\n", static_cast<long long>(job.frame),
-               job.attempt, failure.failure == Failure::kCrash ? "cost a worker" : "failed", next,
-               first_line(failure.message).c_str());
+  say_aside("frame {}, attempt {} {}{}: {}\n", job.frame, job.attempt,
+            failure.failure == Failure::kCrash ? "cost a worker" : "failed", next,
+            first_line(failure.message));
   show(terminal_);
 }
 

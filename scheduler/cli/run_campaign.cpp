@@ -62,16 +62,12 @@ int print_outcome(const Campaign& campaign, std::int64_t done_before, const RunS
 
 int run_campaign(Campaign& campaign, const PreparedCampaign& prepared, const UsedFiles& used,
                  RunSetup& setup, std::vector<PendingFrame> frames) {
-  const Result<KeptInputs> inputs = inputs_of(prepared);
-  if (!inputs) return report(inputs.error());
-  if (Status kept = keep_inputs(campaign.files, *inputs); !kept) return report(kept.error());
   const Result<FrameCounts> before = campaign.store.counts();
   if (!before) return report(before.error());
   const bool silent = setup.options.quiet || frames.empty();
   if (!silent) {
-    std::fprintf(stderr, "%s into %s: %s\n",
-                 describe_work(prepared.settings, frames.size()).c_str(),
-                 campaign.files.root().c_str(), describe(setup).c_str());
+    say_aside("{} into {}: {}\n", describe_work(prepared.settings, frames.size()),
+              campaign.files.root().string(), describe(setup));
   }
   const Result<RoomForecast> room =
       forecast_room(campaign, prepared.settings, frames.size(), setup);
@@ -83,6 +79,9 @@ int run_campaign(Campaign& campaign, const PreparedCampaign& prepared, const Use
   if (Status fits = check_room(campaign.files, *room, frames.size(), setup.options); !fits) {
     return report(fits.error());
   }
+  const Result<KeptInputs> inputs = inputs_of(prepared);
+  if (!inputs) return report(inputs.error());
+  if (Status kept = keep_inputs(campaign.files, *inputs); !kept) return report(kept.error());
   const auto start = std::chrono::steady_clock::now();
   Progress progress(static_cast<std::int64_t>(frames.size()), before->done, silent);
   CampaignRunner runner(campaign, prepared, used, setup, progress);
@@ -91,8 +90,8 @@ int run_campaign(Campaign& campaign, const PreparedCampaign& prepared, const Use
   progress.finish();
   if (!summary) {
     const int code = report(summary.error());
-    std::fprintf(stderr, "seedframe: nothing is lost: 'seedframe resume %s' goes on\n",
-                 campaign.files.root().c_str());
+    say_aside("seedframe: nothing is lost: 'seedframe resume {}' goes on\n",
+              campaign.files.root().string());
     return runner.is_drained() ? static_cast<int>(kExitInterrupted) : code;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -111,8 +111,8 @@ bool keep(Campaign& campaign, const PreparedCampaign& prepared, const ErrorCheck
   if (!prepared.settings.quality) return false;
   const Status kept = keep_errors(campaign, check);
   if (!kept) {
-    std::fprintf(stderr, "seedframe: note: the campaign does not keep what was measured: %s\n",
-                 kept.error().message.c_str());
+    say_aside("seedframe: note: the campaign does not keep what was measured: {}\n",
+              kept.error().message);
   }
   return kept.has_value();
 }

@@ -1,5 +1,6 @@
 #include "export/kept_inputs.h"
 
+#include "assets/asset_files.h"
 #include "base/canonical_json.h"
 #include "base/files.h"
 
@@ -42,7 +43,7 @@ Status write_if_other(const fs::path& file, const std::string& bytes) {
 /// Its description, and its mesh; coarser levels are not what exports show.
 Status keep_asset(const Asset& asset, const fs::path& folder) {
   if (Status made = make_folders(folder); !made) return made;
-  for (const fs::path& file : {fs::path("mesh.drc"), fs::path("asset.json")}) {
+  for (const char* file : {asset_files::kMesh, asset_files::kDescription}) {
     const Result<std::string> bytes = read_file(asset.folder / file);
     if (!bytes) return forward_error(bytes);
     if (Status written = write_if_other(folder / file, *bytes); !written) return written;

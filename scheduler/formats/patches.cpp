@@ -123,7 +123,7 @@ class Patches : public ExportFormat {
     const Image<std::uint8_t>& image = *frame.loaded.image;
     const bool is_target = instance.label->id == frame.loaded.labels.target;
     const PixelRect box = is_target ? PixelRect{0, 0, image.width, image.height} : instance.box();
-    Image<std::uint8_t> rectangle = cropped(image, box.x, box.y, box.width, box.height);
+    Image<std::uint8_t> rectangle = cropped(image, box);
     if (options_.patch_size == 0) return rectangle;
     if (box.width == options_.patch_size && box.height == options_.patch_size) return rectangle;
     return resampled(rectangle, options_.patch_size, options_.patch_size);

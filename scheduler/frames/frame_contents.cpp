@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "frames/campaign_files.h"
 #include "frames/frame_image.h"
+#include "image/crop.h"
 #include "image/exr_file.h"
 #include "image/pass_reader.h"
 #include "image/pixel_hash.h"
@@ -18,16 +19,6 @@
 namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
-
-template <class T>
-Image<T> part_of(const Image<T>& image, const PixelRect& rect) {
-  Image<T> part(rect.width, rect.height, image.channels);
-  for (int row = 0; row < rect.height; ++row) {
-    const T* from = &image.at(rect.y + row, rect.x);
-    std::copy(from, from + rect.width * image.channels, &part.at(row, 0));
-  }
-  return part;
-}
 
 /// Without what depends on how rays are traced.
 Json without_silhouettes(Json labels) {
@@ -86,7 +77,7 @@ class Contents {
   template <class T>
   Image<T> hashed_part(const Image<T>& image) const {
     const bool rendered = manifest_.files.contains(frame_files::kPasses);
-    return rendered && spec_.render.region ? part_of(image, *spec_.render.region) : image;
+    return rendered && spec_.render.region ? cropped(image, *spec_.render.region) : image;
   }
 
   void check_labels(const Image<std::uint16_t>& ids) {

@@ -10,6 +10,7 @@
 #include "frames/frame_image.h"
 #include "image/exr_file.h"
 #include "image/png_file.h"
+#include "spec/frame_spec_reader.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -117,6 +118,15 @@ Status check_file(const CommittedFrame& frame, const std::string& name, const Ma
 }
 
 }  // namespace
+
+Result<FrameSpec> stored_spec(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / frame_files::kSpec;
+  const Result<std::string> text = read_file(path);
+  if (!text) return forward_error(text);
+  const Result<Json> json = parse_json(*text, path.string());
+  if (!json) return forward_error(json);
+  return frame_spec_from_json(*json, path.string());
+}
 
 Result<FrameReader> FrameReader::open(const CommittedFrame& frame, const FrameParts& parts) {
   FrameReader reader;

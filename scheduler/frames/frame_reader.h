@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "frames/manifest.h"
 #include "image/image.h"
+#include "spec/frame_spec.h"
 
 namespace seedframe {
 
@@ -20,6 +21,9 @@ struct CommittedFrame {
   std::filesystem::path folder;  ///< holds what campaign_files.h names
   std::string frame_id;
 };
+
+/// What frame.json in a frame's folder says, whatever its manifest does.
+Result<FrameSpec> stored_spec(const std::filesystem::path& folder);
 
 /// Which files of a frame are needed beside its labels.
 struct FrameParts {

@@ -4,15 +4,24 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <cstdint>
 
 #include "base/pixel_rect.h"
 #include "image/image.h"
 
 namespace seedframe {
 
-/// Columns [x, x + width) of rows [y, y + height), all channels; they must be in the image.
-Image<std::uint8_t> cropped(const Image<std::uint8_t>& image, int x, int y, int width, int height);
+/// A rectangle of an image, all channels; it must be inside.
+template <class T>
+Image<T> cropped(const Image<T>& image, const PixelRect& rect) {
+  assert(rect.x >= 0 && rect.y >= 0 && rect.end_x() <= image.width && rect.end_y() <= image.height);
+  Image<T> part(rect.width, rect.height, image.channels);
+  const auto row_values = static_cast<std::ptrdiff_t>(rect.width) * image.channels;
+  for (int row = 0; row < rect.height; ++row) {
+    const T* from = &image.at(rect.y + row, rect.x);
+    std::copy(from, from + row_values, &part.at(row, 0));
+  }
+  return part;
+}
 
 /// An image with `part` at its place `at`, which must have its size and be inside; every other
 /// value is `fill`.

@@ -4,7 +4,7 @@
 
 #include "base/files.h"
 #include "frames/campaign_files.h"
-#include "spec/frame_spec_reader.h"
+#include "frames/frame_reader.h"
 
 namespace seedframe {
 namespace {
@@ -104,12 +104,7 @@ Result<FrameExplanation> explain_frame(const Campaign& campaign, const PreparedC
 Result<FrameExplanation> explain_frame_alone(const Campaign& campaign, std::int64_t frame) {
   Result<FrameExplanation> explanation = known_of(campaign, frame);
   if (!explanation) return explanation;
-  const std::filesystem::path file = campaign.files.frame(frame) / frame_files::kSpec;
-  const Result<std::string> text = read_file(file);
-  if (!text) return forward_error(text);
-  const Result<Json> json = parse_json(*text, file.string());
-  if (!json) return forward_error(json);
-  Result<FrameSpec> spec = frame_spec_from_json(*json, file.string());
+  Result<FrameSpec> spec = stored_spec(campaign.files.frame(frame));
   if (!spec) return forward_error(spec);
   explanation->expanded.id = frame_id(*spec);
   explanation->expanded.scene = explanation->row.scene;

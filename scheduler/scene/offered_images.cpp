@@ -12,7 +12,7 @@ class Collector {
       : library_(library), assets_(assets) {}
 
   void add(const CompiledObject& object) {
-    if (object.asset) add(object.materials);
+    if (object.asset || object.material_for_objects) add(object.materials);
     bool can_be_own = object.materials.can_be_own;
     for (const auto& [slot, materials] : object.slots) {
       add(materials);

@@ -250,5 +250,18 @@ TEST_F(AssetVerb, KeypointsAreSetShownAndTakenAway) {
               HasSubstr("did you mean 'part'?"));
 }
 
+TEST_F(AssetVerb, WithJsonAnImportOfSeveralFilesIsOneDocument) {
+  write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  write("bad.obj", "v 0 0\n");
+  const Outcome outcome =
+      run({"asset", "import", "bad.obj", "good.obj", "--root", "lib2", "--json"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+  const Json reports = Json::parse(outcome.output);
+  ASSERT_EQ(reports.size(), 2u);
+  EXPECT_EQ(reports.at(0).at("file"), "bad.obj");
+  EXPECT_EQ(reports.at(0).at("error").at("exit_code"), 2);
+  EXPECT_EQ(reports.at(1).at("name"), "good");
+}
+
 }  // namespace
 }  // namespace seedframe

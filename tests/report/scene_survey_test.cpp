@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/campaign_config.h"
-#include "scene/material_library.h"
+#include "tests/scene/scene_fixture.h"
 
 namespace seedframe {
 namespace {
@@ -14,14 +13,11 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 SceneSurvey survey_of(const std::string& text) {
-  const auto config = read_campaign_config("seedframe: 1\n" + text, "scene.yaml");
-  EXPECT_TRUE(config) << config.error().message;
-  const std::filesystem::path home = SEEDFRAME_HOME;
-  const auto expander =
-      SceneExpander::compile(*config, *AssetLibrary::open({home / "assets"}),
-                             *MaterialLibrary::open({home / "materials"}, config->materials));
+  const std::string config = "seedframe: 1\n" + text;
+  const auto expander = expander_of(config);
   EXPECT_TRUE(expander) << expander.error().message;
-  const auto survey = survey_scenes(*expander, config->categories);
+  const auto survey =
+      survey_scenes(*expander, read_campaign_config(config, "scene.yaml")->categories);
   EXPECT_TRUE(survey) << survey.error().message;
   return *survey;
 }

@@ -7,23 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/campaign_config.h"
-#include "scene/expander.h"
-#include "scene/material_library.h"
+#include "tests/scene/scene_fixture.h"
 
 namespace seedframe {
 namespace {
-
-Result<SceneExpander> expander_of(const std::string& text) {
-  const auto config = read_campaign_config(text, "scene.yaml");
-  if (!config) return forward_error(config);
-  const std::filesystem::path home = SEEDFRAME_HOME;
-  auto assets = AssetLibrary::open({home / "assets"});
-  if (!assets) return forward_error(assets);
-  auto materials = MaterialLibrary::open({home / "materials"}, config->materials);
-  if (!materials) return forward_error(materials);
-  return SceneExpander::compile(*config, *assets, *materials);
-}
 
 std::string crowded(const std::string& more) {
   // Three gears whose footprints are 92 mm wide fit into the strip, but not after all places of
@@ -189,6 +176,13 @@ TEST(Layout, ObjectsOfAGroupShareItsMaterial) {
                             return draw.name.starts_with("objects.room.material.paint.base_color");
                           }),
             2);
+  // Of what a group's material may show, too: images are looked at before a worker sees them.
+  const auto textured = expander_of(
+      "seedframe: 1\nobjects: {g: {material: Concrete01, objects: {a: {asset: cube, category: "
+      "none, "
+      "material: parent}}}}\ncamera: {distance_m: 1}\n");
+  ASSERT_TRUE(textured) << textured.error().message;
+  EXPECT_FALSE(textured->offered_images().empty());
   const auto apart = expander_of(room("paint"))->expand(0);
   EXPECT_NE(apart->spec.instances[0].materials, apart->spec.instances[1].materials);
   EXPECT_THAT(
