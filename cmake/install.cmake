@@ -7,7 +7,7 @@ set(doc_folder ${CMAKE_INSTALL_DATADIR}/doc/seedframe)
 
 file(RELATIVE_PATH data_from_program /${CMAKE_INSTALL_BINDIR} /${data_folder})
 file(RELATIVE_PATH libraries_from_program /${CMAKE_INSTALL_BINDIR} /${libraries_folder})
-target_compile_definitions(seedframe PRIVATE
+target_compile_definitions(seedframe_console PRIVATE
   SEEDFRAME_CHECKOUT="${PROJECT_SOURCE_DIR}"
   SEEDFRAME_BUILD_FOLDER="${PROJECT_BINARY_DIR}"
   SEEDFRAME_DATA_FROM_PROGRAM="${data_from_program}"

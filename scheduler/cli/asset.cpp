@@ -17,10 +17,10 @@
 #include "base/utf8.h"
 #include "cli/asset_keypoints.h"
 #include "cli/asset_report.h"
-#include "cli/exit_code.h"
-#include "cli/home.h"
-#include "cli/progress.h"
-#include "cli/say.h"
+#include "console/exit_code.h"
+#include "console/home.h"
+#include "console/progress.h"
+#include "console/say.h"
 #include "cli/verb.h"
 
 namespace seedframe {

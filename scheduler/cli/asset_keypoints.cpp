@@ -9,7 +9,7 @@
 #include "assets/asset_files.h"
 #include "assets/asset_library.h"
 #include "base/nearest_name.h"
-#include "cli/exit_code.h"
+#include "console/exit_code.h"
 
 namespace seedframe {
 namespace {

@@ -7,12 +7,12 @@
 
 #include "base/cores.h"
 #include "base/files.h"
-#include "cli/arguments.h"
-#include "cli/blender_option.h"
-#include "cli/exit_code.h"
-#include "cli/home.h"
-#include "cli/run_options.h"
-#include "cli/say.h"
+#include "console/arguments.h"
+#include "console/blender_option.h"
+#include "console/exit_code.h"
+#include "console/home.h"
+#include "console/run_options.h"
+#include "console/say.h"
 #include "quality/error_report.h"
 
 namespace seedframe {

@@ -7,10 +7,10 @@
 
 #include "audit/campaign_comparison.h"
 #include "base/message_text.h"
-#include "cli/arguments.h"
-#include "cli/exit_code.h"
-#include "cli/say.h"
-#include "cli/tolerance_options.h"
+#include "console/arguments.h"
+#include "console/exit_code.h"
+#include "console/say.h"
+#include "console/tolerance_options.h"
 #include "cli/verb.h"
 
 namespace seedframe {

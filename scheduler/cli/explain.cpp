@@ -7,10 +7,10 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/campaign.h"
-#include "cli/arguments.h"
-#include "cli/exit_code.h"
-#include "cli/home.h"
-#include "cli/say.h"
+#include "console/arguments.h"
+#include "console/exit_code.h"
+#include "console/home.h"
+#include "console/say.h"
 #include "cli/verb.h"
 #include "export/kept_inputs.h"
 #include "plan/left_out.h"

@@ -12,8 +12,8 @@
 #include <CLI/CLI.hpp>
 
 #include "base/nearest_name.h"
-#include "cli/exit_code.h"
-#include "cli/home.h"
+#include "console/exit_code.h"
+#include "console/home.h"
 #include "cli/verb.h"
 
 namespace {

@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/exit_code.h"
-#include "cli/say.h"
+#include "console/exit_code.h"
+#include "console/say.h"
 #include "cli/verb.h"
 #include "manual/describe_command.h"
 

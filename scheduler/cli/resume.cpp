@@ -8,12 +8,12 @@
 
 #include "campaign/input_files.h"
 #include "campaign/input_images.h"
-#include "cli/arguments.h"
-#include "cli/exit_code.h"
-#include "cli/home.h"
-#include "cli/run_campaign.h"
-#include "cli/run_options.h"
-#include "cli/say.h"
+#include "console/arguments.h"
+#include "console/exit_code.h"
+#include "console/home.h"
+#include "console/run_campaign.h"
+#include "console/run_options.h"
+#include "console/say.h"
 #include "cli/verb.h"
 #include "quality/raise.h"
 

@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/exit_code.h"
-#include "cli/progress.h"
-#include "cli/say.h"
+#include "console/exit_code.h"
+#include "console/progress.h"
+#include "console/say.h"
 #include "cli/verb.h"
 #include "report/campaign_status.h"
 

@@ -8,12 +8,12 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/campaign.h"
-#include "cli/arguments.h"
-#include "cli/exit_code.h"
-#include "cli/home.h"
-#include "cli/run_options.h"
-#include "cli/say.h"
-#include "cli/temporary_folder.h"
+#include "console/arguments.h"
+#include "console/exit_code.h"
+#include "console/home.h"
+#include "console/run_options.h"
+#include "console/say.h"
+#include "console/temporary_folder.h"
 #include "cli/verb.h"
 #include "manual/describe_command.h"
 #include "quality/error_check.h"

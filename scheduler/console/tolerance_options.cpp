@@ -1,10 +1,10 @@
-#include "cli/tolerance_options.h"
+#include "console/tolerance_options.h"
 
 #include <array>
 
 #include <CLI/CLI.hpp>
 
-#include "cli/arguments.h"
+#include "console/arguments.h"
 
 namespace seedframe {
 

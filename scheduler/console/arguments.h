@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/message_text.h"
-#include "cli/home.h"
+#include "console/home.h"
 
 namespace seedframe {
 

@@ -1,14 +1,14 @@
-#include "cli/run_options.h"
+#include "console/run_options.h"
 
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
 
 #include "campaign/run_setup.h"
-#include "cli/arguments.h"
-#include "cli/blender_option.h"
-#include "cli/home.h"
-#include "cli/say.h"
+#include "console/arguments.h"
+#include "console/blender_option.h"
+#include "console/home.h"
+#include "console/say.h"
 
 namespace seedframe {
 namespace {

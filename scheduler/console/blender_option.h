@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/home.h"
+#include "console/home.h"
 
 namespace seedframe {
 

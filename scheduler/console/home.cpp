@@ -1,4 +1,4 @@
-#include "cli/home.h"
+#include "console/home.h"
 
 #include <cstdlib>
 #include <vector>

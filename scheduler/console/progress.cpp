@@ -1,4 +1,4 @@
-#include "cli/progress.h"
+#include "console/progress.h"
 
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/message_text.h"
-#include "cli/say.h"
+#include "console/say.h"
 
 namespace seedframe {
 namespace {

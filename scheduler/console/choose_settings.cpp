@@ -1,10 +1,10 @@
-#include "cli/choose_settings.h"
+#include "console/choose_settings.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "cli/say.h"
-#include "cli/temporary_folder.h"
+#include "console/say.h"
+#include "console/temporary_folder.h"
 #include "quality/calibration.h"
 
 namespace seedframe {

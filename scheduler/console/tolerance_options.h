@@ -2,7 +2,7 @@
 #pragma once
 
 #include "audit/grade.h"
-#include "cli/exit_code.h"
+#include "console/exit_code.h"
 
 namespace CLI {
 class App;

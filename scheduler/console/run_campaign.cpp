@@ -1,4 +1,4 @@
-#include "cli/run_campaign.h"
+#include "console/run_campaign.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,9 +8,9 @@
 #include "campaign/disk_space.h"
 #include "campaign/drain_signals.h"
 #include "campaign/run_setup.h"
-#include "cli/exit_code.h"
-#include "cli/progress.h"
-#include "cli/say.h"
+#include "console/exit_code.h"
+#include "console/progress.h"
+#include "console/say.h"
 #include "export/kept_inputs.h"
 
 namespace seedframe {
