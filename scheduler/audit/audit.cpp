@@ -59,7 +59,7 @@ Auditor::Auditor(const Campaign& campaign, PreparedCampaign& prepared, const Run
       portable_(is_portable(prepared)) {}
 
 Status Auditor::look() {
-  Result<FileCheck> files = check_files(campaign_, prepared_);
+  Result<FileCheck> files = check_files(campaign_, {prepared_.settings.categories, &prepared_});
   if (!files) return forward_error(files);
   audit_.files = std::move(*files);
   Result<AuditSample> sample = choose_sample(campaign_.store, options_.sample);

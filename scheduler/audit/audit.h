@@ -44,7 +44,8 @@ struct Audit {
   AuditSample sample;
   std::vector<Conditions> rounds;  ///< the sample was rendered once in each
   std::vector<AuditedFrame> frames;
-  std::vector<std::string> notes;
+  /// Why only files were read, and held against nothing but each other; empty: they were not.
+  std::string why_alone;
 
   std::int64_t count(Grade grade) const;
   /// The worst; of a frame that failed, or for which something else is asked today,

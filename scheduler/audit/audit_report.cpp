@@ -175,6 +175,12 @@ Json to_json(const Audit& audit, const std::vector<AuditedExport>& exports) {
 
 std::string audit_summary(const Audit& audit, const std::vector<AuditedExport>& exports) {
   std::vector<std::string> lines = file_lines(audit.files);
+  if (!audit.why_alone.empty()) {
+    lines.push_back(
+        "note: the config cannot be read here, so labels, frame ids and what frames were made from "
+        "are not made again: " +
+        audit.why_alone.substr(0, audit.why_alone.find('\n')));
+  }
   for (std::string& line : export_lines(exports)) lines.push_back(std::move(line));
   for (std::size_t i = 0; i < std::min(kMostListed, audit.sample.failed.size()); ++i) {
     const FrameRow& row = audit.sample.failed[i];
@@ -236,7 +242,10 @@ Status take_audit_folder(const fs::path& folder) {
                 folder.string());
   }
   fs::remove_all(folder, error);
-  if (Status made = make_folders(folder); !made) return made;
+  if (Status made = make_folders(folder); !made) {
+    return tl::unexpected(
+        Error{made.error().kind, made.error().message + ": -o names another place for the report"});
+  }
   return write_file(folder / "report.json", "{}\n");  // an audit that did not end
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
 #include <tbb/parallel_for.h>
@@ -48,8 +49,8 @@ class Twins {
 
 class FilesOfCampaign {
  public:
-  FilesOfCampaign(const Campaign& campaign, const PreparedCampaign& prepared, bool same_rays)
-      : campaign_(campaign), prepared_(prepared), same_rays_(same_rays) {}
+  FilesOfCampaign(const Campaign& campaign, const FileReference& reference, bool same_rays)
+      : campaign_(campaign), reference_(reference), same_rays_(same_rays) {}
 
   Result<FileCheck> check() {
     constexpr int kReadAtOnce = 4096;
@@ -67,21 +68,25 @@ class FilesOfCampaign {
                         [&](std::size_t i) { checked[i] = check_frame((*rows)[i]); });
       for (std::size_t i = 0; i < rows->size(); ++i) take((*rows)[i], std::move(checked[i]));
     }
-    const std::int64_t all = prepared_.expander.frame_count();
-    note_gap(all);
-    if (next_ > all) {
-      complain(fmt::format("the job store has {} frames, the config makes {}", next_, all));
-    }
+    compare_count();
     name_strange_frames();
     check_.duplicates = twins_.groups();
-    for (std::string& problem : wrong_provenance(campaign_, prepared_, used_, is_as_asked())) {
+    const PreparedCampaign* same = check_.other_inputs.empty() ? reference_.prepared : nullptr;
+    for (std::string& problem : wrong_provenance(campaign_, same, used_)) {
       complain(std::move(problem));
     }
     return std::move(check_);
   }
 
  private:
-  bool is_as_asked() const { return check_.other_inputs.empty(); }
+  void compare_count() {
+    if (reference_.prepared == nullptr) return;
+    const std::int64_t all = reference_.prepared->expander.frame_count();
+    note_gap(all);
+    if (next_ > all) {
+      complain(fmt::format("the job store has {} frames, the config makes {}", next_, all));
+    }
+  }
   void complain(std::string problem) { check_.of_no_frame.push_back(std::move(problem)); }
 
   /// `frame` is the next one there is, or the end.
@@ -105,11 +110,15 @@ class FilesOfCampaign {
       checked.problems.push_back(folder.string() +
                                  ": its pixel hash is not the one in the job store");
     }
-    Result<ExpandedFrame> expanded = prepared_.expander.expand(row.frame);
-    checked.other_inputs = !expanded || expanded->id != row.frame_id;
-    ContentWish wish{prepared_.settings.categories, nullptr, same_rays_};
+    std::optional<ExpandedFrame> expanded;
+    if (reference_.prepared != nullptr) {
+      Result<ExpandedFrame> today = reference_.prepared->expander.expand(row.frame);
+      checked.other_inputs = !today || today->id != row.frame_id;
+      if (!checked.other_inputs) expanded = std::move(*today);
+    }
+    ContentWish wish{reference_.categories, nullptr, same_rays_};
     FrameSpec spec;
-    if (!checked.other_inputs) {
+    if (expanded) {
       checked.used = std::move(expanded->used);
       spec = std::move(expanded->spec);
       wish.meshes = &expanded->meshes;
@@ -164,7 +173,7 @@ class FilesOfCampaign {
   }
 
   const Campaign& campaign_;
-  const PreparedCampaign& prepared_;
+  const FileReference& reference_;
   bool same_rays_;
   TwinTracer tracer_;
   FileCheck check_;
@@ -175,10 +184,10 @@ class FilesOfCampaign {
 
 }  // namespace
 
-Result<FileCheck> check_files(const Campaign& campaign, const PreparedCampaign& prepared) {
+Result<FileCheck> check_files(const Campaign& campaign, const FileReference& reference) {
   const Result<bool> same_rays = traced_like_here(campaign.store);
   if (!same_rays) return forward_error(same_rays);
-  return FilesOfCampaign(campaign, prepared, *same_rays).check();
+  return FilesOfCampaign(campaign, reference, *same_rays).check();
 }
 
 }  // namespace seedframe

@@ -27,10 +27,18 @@ struct FileCheck {
   std::vector<Duplicates> duplicates;      ///< in the order of their first frames
 };
 
+/// What a campaign's files are held against, beside each other.
+struct FileReference {
+  const std::vector<std::string>& categories;
+  /// What the config makes today, used from several threads; null where it cannot be read: then
+  /// ids, labels and what frames were made from are not made again.
+  const PreparedCampaign* prepared = nullptr;
+};
+
 /// Reads every file of every frame that is done, on all cores, and compares it with its manifest,
 /// with what follows from the frame's spec and its other files (frame_contents.h), and the manifest
 /// with the store; the store with what the config makes; provenance.json with both. Files below
-/// frames/ that belong to nothing are problems, too. `prepared` may be used from several threads.
-Result<FileCheck> check_files(const Campaign& campaign, const PreparedCampaign& prepared);
+/// frames/ that belong to nothing are problems, too.
+Result<FileCheck> check_files(const Campaign& campaign, const FileReference& reference);
 
 }  // namespace seedframe

@@ -51,8 +51,7 @@ void compare_attempts(const Json& found, const std::vector<std::string>& known,
 }  // namespace
 
 std::vector<std::string> wrong_provenance(const Campaign& campaign,
-                                          const PreparedCampaign& prepared, const UsedFiles& used,
-                                          bool same_inputs) {
+                                          const PreparedCampaign* prepared, const UsedFiles& used) {
   const auto known = campaign.store.provenances();
   if (!known) return {known.error().message};
   if (known->empty()) return {};  // nothing has been made yet
@@ -63,14 +62,14 @@ std::vector<std::string> wrong_provenance(const Campaign& campaign,
   if (!json->is_object()) return {fmt::format("{} is not an object", kFile)};
   std::vector<std::string> wrong;
   compare_attempts(*json, *known, wrong);
-  if (!same_inputs) return wrong;
+  if (prepared == nullptr) return wrong;
   Json overrides = Json::array();
-  for (const Override& change : prepared.source.overrides) {
+  for (const Override& change : prepared->source.overrides) {
     overrides.push_back(change.path + "=" + change.value);
   }
-  compare(*json, "config_sha256", sha256_hex(prepared.source.text), wrong);
+  compare(*json, "config_sha256", sha256_hex(prepared->source.text), wrong);
   compare(*json, "overrides", overrides, wrong);
-  compare(*json, "seed", prepared.settings.seed, wrong);
+  compare(*json, "seed", prepared->settings.seed, wrong);
   compare_table(*json, "assets", asset_hashes(used), wrong);
   compare_table(*json, "textures", image_hashes(used), wrong);
   return wrong;

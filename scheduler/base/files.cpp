@@ -137,7 +137,10 @@ Status rename_file(const fs::path& from, const fs::path& to) {
 
 Status replace_folder(const fs::path& temporary, const fs::path& final) {
   if (::rename(temporary.c_str(), final.c_str()) == 0) return {};
-  if (errno != ENOTEMPTY && errno != EEXIST) return system_failure("rename to", final, errno);
+  // ENOTDIR: a file or a link, whose target is not ours to touch, stands there.
+  if (errno != ENOTEMPTY && errno != EEXIST && errno != ENOTDIR) {
+    return system_failure("rename to", final, errno);
+  }
   std::error_code error;
   fs::remove_all(final, error);
   if (::rename(temporary.c_str(), final.c_str()) != 0) {
@@ -150,6 +153,13 @@ Status commit_folder(const fs::path& temporary, const fs::path& final) {
   if (Status synced = sync_path(temporary); !synced) return synced;
   if (Status replaced = replace_folder(temporary, final); !replaced) return replaced;
   return sync_path(final.parent_path());
+}
+
+Status make_folders_in(const fs::path& root, const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(root, error)) return make_folders(path);
+  return fail(ErrorKind::kEnvironment, "{} is gone: the folder was moved or removed meanwhile",
+              root.string());
 }
 
 Status make_folders(const fs::path& path) {

@@ -59,9 +59,12 @@ Status sync_filesystem(const std::filesystem::path& path);
 Status replace_folder(const std::filesystem::path& temporary, const std::filesystem::path& final);
 
 /// Renames a finished folder to its final name and forces the rename to the disk.
-/// A folder that already has the final name is replaced.
+/// What already has the final name is replaced: a folder, a file, or a link (not its target).
 Status commit_folder(const std::filesystem::path& temporary, const std::filesystem::path& final);
 
 Status make_folders(const std::filesystem::path& path);
+/// The same, for a folder somewhere in `root`, which is not made: a kEnvironment error if it is
+/// gone, say because somebody moved it while we write there.
+Status make_folders_in(const std::filesystem::path& root, const std::filesystem::path& path);
 
 }  // namespace seedframe

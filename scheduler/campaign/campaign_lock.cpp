@@ -12,9 +12,20 @@ namespace seedframe {
 
 Result<CampaignLock> CampaignLock::acquire(const std::filesystem::path& file,
                                            std::chrono::milliseconds patience) {
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  // Through a link, a file would be made or locked wherever somebody wants it.
+  const int descriptor =
+      ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
+  const int error = errno;
+  std::error_code ignored;
+  const std::filesystem::file_status what = std::filesystem::symlink_status(file, ignored);
+  if (std::filesystem::exists(what) && !std::filesystem::is_regular_file(what)) {
+    if (descriptor >= 0) ::close(descriptor);
+    return fail(ErrorKind::kInput,
+                "{} is not a plain file, as a campaign's lock is: remove it, and try again",
+                file.string());
+  }
   if (descriptor < 0) {
-    return fail(ErrorKind::kEnvironment, "cannot open {}: {}", file.string(), std::strerror(errno));
+    return fail(ErrorKind::kEnvironment, "cannot open {}: {}", file.string(), std::strerror(error));
   }
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {

@@ -12,7 +12,7 @@ namespace seedframe {
 /// ends, so a dead scheduler leaves no lock behind.
 class CampaignLock {
  public:
-  /// kInput error when another process holds it.
+  /// kInput errors: another process holds it; something else than a file has its name.
   /// `patience` outlasts those who only look whether it is held.
   static Result<CampaignLock> acquire(
       const std::filesystem::path& file,

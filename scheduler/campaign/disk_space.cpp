@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <limits>
 
 #include <sys/statvfs.h>
 
@@ -27,28 +28,55 @@ Result<std::uint64_t> expected_frame_bytes(const Campaign& campaign,
   return frames == 0 ? typical_frame_bytes(settings) : sum / frames;
 }
 
-std::uint64_t room_for_attempts(const RunSetup& setup) {
+namespace {
+
+Result<DiskRoom> free_room(const fs::path& folder) {
+  struct statvfs info = {};
+  if (::statvfs(folder.c_str(), &info) != 0) return system_failure("look at", folder, errno);
+  // File systems without a table of inodes say that it has none.
+  const bool limited = info.f_files > 0;
+  return DiskRoom{
+      std::uint64_t{info.f_bavail} * info.f_frsize,
+      limited ? std::uint64_t{info.f_favail} : std::numeric_limits<std::uint64_t>::max()};
+}
+
+}  // namespace
+
+DiskRoom room_for_attempts(const RunSetup& setup) {
   // One is rendered, some wait to be finished; each takes its bytes twice for a while.
   constexpr std::uint64_t kFrames = 4;
-  return setup.frame_bytes * kFrames * static_cast<std::uint64_t>(setup.options.pool.workers);
+  constexpr std::uint64_t kFilesOfAFrame = 12;  // and folders, also a bucket's
+  const std::uint64_t frames = kFrames * static_cast<std::uint64_t>(setup.options.pool.workers);
+  return {setup.frame_bytes * frames, kFilesOfAFrame * frames};
 }
 
 Result<std::uint64_t> free_bytes(const fs::path& folder) {
-  struct statvfs info = {};
-  if (::statvfs(folder.c_str(), &info) != 0) return system_failure("look at", folder, errno);
-  return std::uint64_t{info.f_bavail} * info.f_frsize;
+  const Result<DiskRoom> room = free_room(folder);
+  if (!room) return forward_error(room);
+  return room->bytes;
 }
 
-Status check_disk(const CampaignFiles& files, std::uint64_t needed) {
-  const Result<std::uint64_t> free = free_bytes(files.root());
+Status check_room(const fs::path& folder, const DiskRoom& needed) {
+  const Result<DiskRoom> free = free_room(folder);
   if (!free) return forward_error(free);
-  if (*free < needed) {
+  if (free->bytes < needed.bytes) {
     return fail(ErrorKind::kExhausted,
-                "the disk of {} is full: {} are free, {} are needed to go on",
-                files.root().string(), bytes_text(*free), bytes_text(needed));
+                "the disk of {} is full: {} are free, {} are needed to go on", folder.string(),
+                bytes_text(free->bytes), bytes_text(needed.bytes));
   }
+  if (free->files < needed.files) {
+    return fail(ErrorKind::kExhausted,
+                "the disk of {} takes no more files: {} can still be made ('df -i' shows it), {} "
+                "are needed to go on",
+                folder.string(), free->files, needed.files);
+  }
+  return {};
+}
+
+Status check_disk(const CampaignFiles& files, const DiskRoom& needed) {
+  if (Status room = check_room(files.root(), needed); !room) return room;
   constexpr std::size_t kProbeBytes = 4096;
-  if (Status made = make_folders(files.work()); !made) return made;
+  if (Status made = make_folders_in(files.root(), files.work()); !made) return made;
   const Status written = write_file(files.disk_probe(), std::string(kProbeBytes, '\0'));
   std::error_code ignored;
   fs::remove(files.disk_probe(), ignored);

@@ -13,15 +13,22 @@ namespace seedframe {
 Result<std::uint64_t> expected_frame_bytes(const Campaign& campaign,
                                            const CampaignSettings& settings);
 
-/// Bytes that the attempts of a run under way may still take.
-std::uint64_t room_for_attempts(const RunSetup& setup);
+struct DiskRoom {
+  std::uint64_t bytes = 0;
+  std::uint64_t files = 0;
+};
+
+/// What the attempts of a run under way may still take.
+DiskRoom room_for_attempts(const RunSetup& setup);
 
 /// Bytes that we may still write to the file system of `folder`.
 Result<std::uint64_t> free_bytes(const std::filesystem::path& folder);
 
-/// kExhausted unless there are at least `needed` bytes free, a file can be opened, and what is
-/// written to it arrives on the disk.
-Status check_disk(const CampaignFiles& files, std::uint64_t needed);
+/// kExhausted unless at least what is needed is free.
+Status check_room(const std::filesystem::path& folder, const DiskRoom& needed);
+
+/// The same; also unless a file can be opened, and what is written to it arrives on the disk.
+Status check_disk(const CampaignFiles& files, const DiskRoom& needed);
 
 /// "1.2 GB".
 std::string bytes_text(std::uint64_t bytes);

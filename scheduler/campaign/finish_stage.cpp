@@ -14,7 +14,7 @@ FinishStage::~FinishStage() {
 Status FinishStage::open() {
   const CampaignFiles& files = campaign_.files;
   for (const fs::path& folder : {files.work() / "attempts", files.frames()}) {
-    if (Status made = make_folders(folder); !made) return made;
+    if (Status made = make_folders_in(files.root(), folder); !made) return made;
   }
   writer_ = std::make_unique<StoreWriter>(
       files, campaign_.store,

@@ -104,6 +104,15 @@ Result<std::vector<std::int64_t>> frames_to_encode_anew(const Campaign& campaign
   return frames;
 }
 
+tl::unexpected<Error> other_program(const fs::path& folder, std::int64_t frame,
+                                    const std::string& how_many) {
+  return fail(ErrorKind::kInput,
+              "{}: no input has changed, but this Seedframe would make {} of its frames "
+              "differently, for example frame {}: go on with the Seedframe (and the libraries) "
+              "that made them, or submit the campaign again, into another folder",
+              folder.string(), how_many, frame);
+}
+
 }  // namespace
 
 InputStamps input_stamps(const PreparedCampaign& prepared) {
@@ -154,6 +163,54 @@ Result<std::vector<std::string>> inputs_touched(const Campaign& campaign) {
   return touched;
 }
 
+Result<HealedRows> heal_rows(Campaign& campaign, const PreparedCampaign& prepared) {
+  std::vector<std::optional<std::string>> ids(
+      static_cast<std::size_t>(prepared.expander.frame_count()));
+  const Status visited = campaign.store.for_each_frame([&](const FrameRow& row) -> Status {
+    if (row.frame < 0 || row.frame >= prepared.expander.frame_count()) {
+      return fail(ErrorKind::kCorrupt, "{}: it has a frame {}, and the campaign has {} frames",
+                  campaign.files.store().string(), row.frame, prepared.expander.frame_count());
+    }
+    ids[static_cast<std::size_t>(row.frame)] = row.frame_id;
+    return {};
+  });
+  if (!visited) return forward_error(visited);
+  HealedRows healed;
+  std::vector<FrameRow> rows;
+  for (std::int64_t frame = 0; frame < prepared.expander.frame_count(); ++frame) {
+    const std::optional<std::string>& id = ids[static_cast<std::size_t>(frame)];
+    Result<ExpandedFrame> expanded = prepared.expander.expand(frame);
+    if (!expanded) return forward_error(expanded);
+    if (id == expanded->id) continue;
+    const Result<Manifest> there = read_manifest(campaign.files.frame(frame));
+    if (id && there && there->frame_id == *id) {
+      return other_program(campaign.files.root(), frame, "some");
+    }
+    (id ? healed.wrong : healed.lost).push_back(frame);
+    FrameRow row;
+    row.frame = frame;
+    row.scene = expanded->scene;
+    row.frame_id = std::move(expanded->id);
+    rows.push_back(std::move(row));
+  }
+  const Status written = campaign.store.write_together(JobStore::Sync::kNow, [&]() -> Status {
+    auto next = rows.begin();
+    const Status added = campaign.store.add_frames([&]() -> Result<std::optional<FrameRow>> {
+      while (next != rows.end() && ids[static_cast<std::size_t>(next->frame)]) ++next;
+      if (next == rows.end()) return std::nullopt;
+      return *next++;
+    });
+    if (!added) return added;
+    for (const FrameRow& row : rows) {
+      if (!ids[static_cast<std::size_t>(row.frame)]) continue;
+      if (Status done = campaign.store.renew(row.frame, row.frame_id); !done) return done;
+    }
+    return {};
+  });
+  if (!written) return forward_error(written);
+  return healed;
+}
+
 Result<RenewedFrames> renew_changed_frames(
     Campaign& campaign, PreparedCampaign& prepared,
     const std::function<bool(const RenewedFrames&)>& may_replace) {
@@ -175,11 +232,8 @@ Result<RenewedFrames> renew_changed_frames(
   renewed.inputs = changed_inputs(*before, now);
   if (!changed->empty() &&
       std::all_of(renewed.inputs.begin(), renewed.inputs.end(), is_ourselves)) {
-    return fail(ErrorKind::kInput,
-                "{}: no input has changed, but this Seedframe would make {} of its frames "
-                "differently, for example frame {}: go on with the Seedframe (and the libraries) "
-                "that made them, or submit the campaign again, into another folder",
-                campaign.files.root().string(), changed->size(), changed->begin()->first);
+    return other_program(campaign.files.root(), changed->begin()->first,
+                         std::to_string(changed->size()));
   }
   if (renewed.finished > 0 && !may_replace(renewed)) {
     return fail(

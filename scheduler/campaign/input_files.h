@@ -44,6 +44,17 @@ Result<RenewedFrames> renew_changed_frames(
     Campaign& campaign, PreparedCampaign& prepared,
     const std::function<bool(const RenewedFrames&)>& may_replace);
 
+struct HealedRows {
+  std::vector<std::int64_t> lost;   ///< frames that the store had no row of
+  std::vector<std::int64_t> wrong;  ///< frames whose id was not what the campaign makes of them
+};
+
+/// Expands every frame, however unchanged the inputs are, and gives the store the rows that it
+/// should have: the frames are pending then, and done again if reconcile() finds them on the disk.
+/// kInput error: a finished frame's own files agree with its row, so that this program (or a
+/// library) must be another one; nothing is changed. kCorrupt: rows of frames that there are not.
+Result<HealedRows> heal_rows(Campaign& campaign, const PreparedCampaign& prepared);
+
 /// Of the files that frames depend on, those that are not as they were, this program left aside.
 /// Does not see files that are new.
 Result<std::vector<std::string>> inputs_touched(const Campaign& campaign);

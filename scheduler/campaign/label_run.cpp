@@ -39,7 +39,8 @@ void LabelRun::begin(const FrameJob& job, const std::string& made_with) {
   stage_.begin(job, 0, made_with);
   Result<ExpandedFrame> expanded = prepared_.expander.expand(job.frame);
   const fs::path folder = campaign_.files.attempt(job.frame, job.attempt);
-  const Status made = expanded ? make_folders(folder) : Status(forward_error(expanded));
+  const Status made =
+      expanded ? make_folders_in(campaign_.files.root(), folder) : Status(forward_error(expanded));
   if (!made) return give_up(job, made.error());
   FinishTask task{std::move(expanded->spec), std::move(expanded->id), std::move(expanded->meshes),
                   folder, campaign_.files.rejected(job.frame)};

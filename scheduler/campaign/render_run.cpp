@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include "base/files.h"
-#include "campaign/disk_space.h"
 #include "campaign/worker_requests.h"
 #include "frames/rendered_frame.h"
 #include "frames/take_rendered.h"
@@ -77,7 +76,8 @@ Result<RunSummary> RenderRun::run_once(const std::vector<PendingFrame>& frames,
                                        const FrameIds& found) {
   for (const fs::path& folder :
        {campaign_.files.logs(), campaign_.files.work() / "meshes", campaign_.files.workers()}) {
-    if (Status made = make_folders(folder); !made) return forward_error(made);
+    if (Status made = make_folders_in(campaign_.files.root(), folder); !made)
+      return forward_error(made);
   }
   if (Status opened = stage_.open(); !opened) return forward_error(opened);
   const std::vector<PendingFrame> rest = take_before_workers(frames, found);
@@ -139,9 +139,10 @@ Result<bool> RenderRun::take(const FrameJob& job, const std::string& frame_id) {
   const auto start = std::chrono::steady_clock::now();
   const std::string made_with = cached_.made_with();
   if (!cached_.has(frame_id)) return false;
-  if (Status room = check_room(); !room) return forward_error(room);
+  if (Status room = look_for_room(); !room) return forward_error(room);
   const fs::path attempt = campaign_.files.attempt(job.frame, job.attempt);
-  if (Status made = make_folders(attempt); !made) return forward_error(made);
+  if (Status made = make_folders_in(campaign_.files.root(), attempt); !made)
+    return forward_error(made);
   const std::optional<Manifest> manifest = cached_.take(frame_id, attempt);
   if (!manifest) return false;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -174,14 +175,10 @@ Result<std::vector<PendingFrame>> RenderRun::give_back() {
 
 // ---- What the pool asks and tells ----
 
-Status RenderRun::check_room() const {
-  const Result<std::uint64_t> room = free_bytes(campaign_.files.root());
-  if (!room || *room >= room_needed_) return {};
-  return check_disk(campaign_.files, room_needed_);
-}
+Status RenderRun::look_for_room() const { return check_room(campaign_.files.root(), room_needed_); }
 
 Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
-  if (Status room = check_room(); !room) return forward_error(room);
+  if (Status room = look_for_room(); !room) return forward_error(room);
   Result<ExpandedFrame> expanded = prepared_.expander.expand(job.frame);
   if (!expanded) return forward_error(expanded);
   const Result<bool> taken = take(job, expanded->id);
@@ -189,7 +186,7 @@ Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
   if (*taken) return std::nullopt;
   const CampaignFiles& files = campaign_.files;
   const fs::path given = files.workers() / CampaignFiles::attempt_name(job.frame, job.attempt);
-  if (Status made = make_folders(given); !made) return forward_error(made);
+  if (Status made = make_folders_in(files.root(), given); !made) return forward_error(made);
   Result<RenderRequest> request = make_render_request(
       *expanded, rendered_passes(given),
       [this](const auto& sha256) { return campaign_.files.mesh_buffer(sha256); });

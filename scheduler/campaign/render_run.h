@@ -14,6 +14,7 @@
 #include "campaign/cached_frames.h"
 #include "campaign/campaign.h"
 #include "campaign/campaign_run.h"
+#include "campaign/disk_space.h"
 #include "campaign/finish_stage.h"
 #include "campaign/provenance.h"
 #include "campaign/run_options.h"
@@ -68,7 +69,7 @@ class RenderRun : public CampaignRun, private RenderClient, private FinishClient
   /// A worker is not what was expected: what was taken before it came is to be rendered.
   Result<std::vector<PendingFrame>> give_back();
 
-  Status check_room() const;
+  Status look_for_room() const;
   void begin(const FrameJob& job, int worker, Attempt attempt);
   /// What begin was told.
   Attempt ended(const FrameJob& job);
@@ -83,7 +84,7 @@ class RenderRun : public CampaignRun, private RenderClient, private FinishClient
   const PreparedCampaign& prepared_;
   Provenance& provenance_;
   std::shared_ptr<const ColorManagement> color_;
-  std::uint64_t room_needed_;  ///< bytes that frames under way may still take
+  DiskRoom room_needed_;  ///< that frames under way may still take
   CachedFrames cached_;
   FrameFinisher finisher_;
   std::map<FrameJob, FinishTask> tasks_;  ///< requested and not yet rendered

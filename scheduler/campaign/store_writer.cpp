@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <pthread.h>
+#include <sys/stat.h>
 
 #include "base/files.h"
 #include "frames/frame_fingerprint.h"
@@ -31,10 +32,18 @@ Status write_failure(JobStore& store, const AttemptFailed& event) {
                               next_state(event.failure.consequence), event.failure.message);
 }
 
+/// Which folder it is, wherever it is moved to; zeros if there is none.
+std::pair<std::uint64_t, std::uint64_t> identity(const fs::path& folder) {
+  struct stat info = {};
+  if (::stat(folder.c_str(), &info) != 0) return {};
+  return {info.st_dev, info.st_ino};
+}
+
 }  // namespace
 
 StoreWriter::StoreWriter(CampaignFiles files, JobStore& store, OnWritten on_written)
     : files_(std::move(files)),
+      root_(identity(files_.root())),
       store_(store),
       on_written_(std::move(on_written)),
       thread_([this] { work(); }) {}
@@ -72,6 +81,11 @@ void StoreWriter::work() {
 }
 
 Status StoreWriter::write(const std::vector<StoreEvent>& events) {
+  if (identity(files_.root()) != root_) {
+    return fail(ErrorKind::kEnvironment,
+                "{} is not the folder that this run began with: it was moved or replaced meanwhile",
+                files_.root().string());
+  }
   // That an attempt began is lost with the attempt itself: not worth a wait.
   const bool only_started = std::all_of(events.begin(), events.end(), [](const StoreEvent& event) {
     return std::holds_alternative<AttemptStarted>(event);
@@ -117,7 +131,8 @@ Result<bool> StoreWriter::commit(const FrameFinished& event) {
 
 Result<std::string> StoreWriter::put_into_place(const FrameJob& job) const {
   const fs::path folder = files_.frame(job.frame);
-  if (Status made = make_folders(folder.parent_path()); !made) return forward_error(made);
+  if (Status made = make_folders_in(files_.root(), folder.parent_path()); !made)
+    return forward_error(made);
   // An earlier attempt may have been rejected; this one was not.
   std::error_code ignored;
   fs::remove_all(files_.rejected(job.frame), ignored);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -68,6 +69,7 @@ class StoreWriter {
   Result<std::string> put_into_place(const FrameJob& job) const;
 
   CampaignFiles files_;
+  std::pair<std::uint64_t, std::uint64_t> root_;  ///< device and inode of the campaign's folder
   JobStore& store_;
   OnWritten on_written_;
   std::mutex mutex_;

@@ -8,9 +8,11 @@
 #include <CLI/CLI.hpp>
 
 #include "audit/audit_report.h"
+#include "audit/file_check.h"
 #include "base/cores.h"
 #include "base/files.h"
 #include "base/message_text.h"
+#include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/blender_option.h"
 #include "console/exit_code.h"
@@ -19,8 +21,8 @@
 #include "console/run_options.h"
 #include "console/say.h"
 #include "console/tolerance_options.h"
-#include "cli/verb.h"
 #include "export/campaign_dataset.h"
+#include "export/kept_inputs.h"
 #include "formats/formats.h"
 #include "manual/describe_command.h"
 
@@ -65,21 +67,64 @@ Status render(Auditor& auditor, bool quiet) {
   return auditor.explain(silent);
 }
 
+bool renders(const AuditOptions& options) {
+  return options.sample.frames > 0 || options.sample.share > 0.0 || !options.sample.only.empty();
+}
+
+/// The report, and what is said of it; returns the exit code.
+int tell(const Campaign& campaign, KeptInputs inputs, const Audit& result,
+         const AuditArguments& arguments) {
+  const auto dataset = campaign_dataset(campaign, std::move(inputs));
+  if (!dataset) return report(dataset.error());
+  const std::vector<AuditedExport> exports =
+      check_exports(dataset->dataset, export_formats(), campaign.files.exports(), core_count());
+  const std::filesystem::path& folder = arguments.options.folder;
+  const std::string title = campaign.files.root().filename().string();
+  if (Status written = write_audit_report(folder, title, result, exports); !written) {
+    return report(written.error());
+  }
+  if (arguments.json) {
+    fmt::print("{}", readable_json(to_json(result, exports)));
+  } else {
+    say("{}{} has the report\n", audit_summary(result, exports), folder.string());
+  }
+  return exit_code_of(result, exports);
+}
+
+/// Of the files alone, where the config, or what it needs, is not to be had.
+int audit_alone(const Campaign& campaign, const Error& why, const AuditArguments& arguments) {
+  Result<std::optional<KeptInputs>> kept = read_kept_inputs(campaign.files);
+  if (!kept) return report(kept.error());
+  if (why.kind != ErrorKind::kInput || !*kept) return report(why);
+  if (renders(arguments.options)) {
+    return report({why.kind, why.message +
+                                 "\nTo render frames again, that is needed; '--frames 0' reads the "
+                                 "campaign's files without it"});
+  }
+  if (Status taken = take_audit_folder(arguments.options.folder); !taken) {
+    return report(taken.error());
+  }
+  Audit result;
+  Result<FileCheck> files = check_files(campaign, {(*kept)->categories, nullptr});
+  if (!files) return report(files.error());
+  result.files = std::move(*files);
+  result.why_alone = why.message;
+  return tell(campaign, std::move(**kept), result, arguments);
+}
+
 int audit(AuditArguments& arguments) {
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
-  Result<PreparedCampaign> prepared = prepare_again(*campaign, seedframe_home(), arguments.allowed);
-  if (!prepared) return report(prepared.error());
-  const Result<Conditions> vary = conditions_to_vary(arguments, *prepared);
-  if (!vary) return report(vary.error());
   AuditOptions& options = arguments.options;
-  options.vary = *vary;
   options.folder = arguments.output.empty() ? campaign->files.root() / "audit"
                                             : std::filesystem::path(arguments.output);
-  const bool renders =
-      options.sample.frames > 0 || options.sample.share > 0.0 || !options.sample.only.empty();
+  Result<PreparedCampaign> prepared = prepare_again(*campaign, seedframe_home(), arguments.allowed);
+  if (!prepared) return audit_alone(*campaign, prepared.error(), arguments);
+  const Result<Conditions> vary = conditions_to_vary(arguments, *prepared);
+  if (!vary) return report(vary.error());
+  options.vary = *vary;
   Result<RunSetup> setup = RunSetup{};
-  if (renders) {
+  if (renders(options)) {
     setup = set_up_run(arguments.run, prepared->settings, prepared->expander.frame_count());
     if (!setup) return report(setup.error());
     print_notes(*setup);
@@ -87,26 +132,12 @@ int audit(AuditArguments& arguments) {
   if (Status taken = take_audit_folder(options.folder); !taken) return report(taken.error());
   Auditor auditor(*campaign, *prepared, *setup, options);
   if (Status looked = auditor.look(); !looked) return report(looked.error());
-  Result<KeptInputs> inputs = inputs_of(*prepared);
-  if (!inputs) return report(inputs.error());
-  const auto dataset = campaign_dataset(*campaign, std::move(*inputs));
-  if (!dataset) return report(dataset.error());
-  const std::vector<AuditedExport> exports =
-      check_exports(dataset->dataset, export_formats(), campaign->files.exports(), core_count());
   if (Status rendered = render(auditor, arguments.run.quiet); !rendered) {
     return report(rendered.error());
   }
-  const Audit& result = auditor.result();
-  const std::string title = campaign->files.root().filename().string();
-  if (Status written = write_audit_report(options.folder, title, result, exports); !written) {
-    return report(written.error());
-  }
-  if (arguments.json) {
-    fmt::print("{}", readable_json(to_json(result, exports)));
-  } else {
-    say("{}{} has the report\n", audit_summary(result, exports), options.folder.string());
-  }
-  return exit_code_of(result, exports);
+  Result<KeptInputs> inputs = inputs_of(*prepared);
+  if (!inputs) return report(inputs.error());
+  return tell(*campaign, std::move(*inputs), auditor.result(), arguments);
 }
 
 std::vector<std::string> condition_words() {

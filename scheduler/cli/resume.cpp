@@ -8,13 +8,13 @@
 
 #include "campaign/input_files.h"
 #include "campaign/input_images.h"
+#include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/exit_code.h"
 #include "console/home.h"
 #include "console/run_campaign.h"
 #include "console/run_options.h"
 #include "console/say.h"
-#include "cli/verb.h"
 #include "quality/raise.h"
 
 namespace seedframe {
@@ -56,6 +56,20 @@ bool may_replace(const RenewedFrames& renewed, bool yes) {
   std::fprintf(stderr, "Replace them? [y/N] ");
   const int answer = std::getchar();
   return answer == 'y' || answer == 'Y';
+}
+
+Status heal_store(Campaign& campaign, const PreparedCampaign& prepared) {
+  const Result<HealedRows> healed = heal_rows(campaign, prepared);
+  if (!healed) return forward_error(healed);
+  for (const std::int64_t frame : healed->lost) {
+    std::fprintf(stderr, "the store had lost frame %lld: it is known again\n",
+                 static_cast<long long>(frame));
+  }
+  for (const std::int64_t frame : healed->wrong) {
+    std::fprintf(stderr, "the store had a wrong id for frame %lld: it has the right one\n",
+                 static_cast<long long>(frame));
+  }
+  return {};
 }
 
 /// With --frame: just these, even if they are done.
@@ -133,6 +147,9 @@ int resume(ResumeArguments arguments) {
   if (!renewed) return report(renewed.error());
   if (renewed->finished == 0) print_renewed(*renewed);
   print_added(*renewed);
+  if (arguments.verify) {
+    if (Status healed = heal_store(*campaign, *prepared); !healed) return report(healed.error());
+  }
   std::vector<std::int64_t> raised;
   if (arguments.raise) {
     Result<std::vector<std::int64_t>> frames = raise_measured(*campaign, *prepared);
@@ -193,7 +210,7 @@ void add_resume_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_flag(
       "--verify", arguments->verify,
       "read every finished frame and compare it with its manifest, however untouched it looks, "
-      "and check the store");
+      "and check the store: its file, and that every frame has the row that it should have");
   add_run_options(*verb, arguments->run);
   verb->footer("Example: seedframe resume results/parts");
   verb->callback(

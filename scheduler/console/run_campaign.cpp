@@ -90,8 +90,11 @@ int run_campaign(Campaign& campaign, const PreparedCampaign& prepared, const Use
   progress.finish();
   if (!summary) {
     const int code = report(summary.error());
-    say_aside("seedframe: nothing is lost: 'seedframe resume {}' goes on\n",
-              campaign.files.root().string());
+    std::error_code ignored;
+    const bool there = std::filesystem::exists(campaign.files.store(), ignored);
+    say_aside("seedframe: nothing is lost: 'seedframe resume {}' goes on{}\n",
+              there ? campaign.files.root().string() : "DIR",
+              there ? "" : ", where the folder is now");
     return runner.is_drained() ? static_cast<int>(kExitInterrupted) : code;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

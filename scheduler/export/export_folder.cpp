@@ -55,7 +55,10 @@ Result<ExportFolder> ExportFolder::create(const fs::path& output, const std::str
   fs::path partial = output / ("." + name + ".partial");
   // What an export that was killed has left.
   if (Status removed = remove_tree(partial); !removed) return forward_error(removed);
-  if (Status made = make_folders(partial); !made) return forward_error(made);
+  if (Status made = make_folders(partial); !made) {
+    return tl::unexpected(
+        Error{made.error().kind, made.error().message + ": -o names another place for exports"});
+  }
   return ExportFolder(std::move(partial), std::move(destination));
 }
 

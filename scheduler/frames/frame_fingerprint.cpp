@@ -10,6 +10,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/sha256.h"
 
@@ -25,8 +26,14 @@ struct FileStamp {
 }  // namespace
 
 std::string frame_fingerprint(const std::filesystem::path& folder) {
-  const std::unique_ptr<DIR, int (*)(DIR*)> listing(::opendir(folder.c_str()), ::closedir);
-  if (!listing) return {};
+  const int descriptor =
+      ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return {};
+  const std::unique_ptr<DIR, int (*)(DIR*)> listing(::fdopendir(descriptor), ::closedir);
+  if (!listing) {
+    ::close(descriptor);
+    return {};
+  }
   constexpr std::size_t kFilesOfAFrame = 10;
   std::vector<FileStamp> files;
   files.reserve(kFilesOfAFrame);

@@ -88,6 +88,12 @@ Result<Manifest> parse_manifest(std::string_view text, const std::string& what) 
 }
 
 Result<Manifest> read_manifest(const fs::path& frame_folder) {
+  std::error_code ignored;
+  const fs::file_status what = fs::symlink_status(frame_folder, ignored);
+  if (fs::exists(what) && !fs::is_directory(what)) {
+    return fail(ErrorKind::kCorrupt, "{} is {}, not the folder of a frame", frame_folder.string(),
+                fs::is_symlink(what) ? "a link" : "a file");
+  }
   const fs::path path = frame_folder / frame_files::kManifest;
   const Result<std::string> text = read_file(path);
   if (!text) return fail(ErrorKind::kCorrupt, "{}", text.error().message);

@@ -54,12 +54,6 @@ class AuditContents : public ProgramTest {
   void replace_by_that_of(int frame, const std::string& name, int other) {
     replace_file(frame, name, *read_file(folder_ / file_of(other, name)));
   }
-  void sql(const std::string& statement) const {
-    const std::string command = "/usr/bin/python3 -c \"import sqlite3; c = sqlite3.connect('" +
-                                (folder_ / "c/campaign.sqlite").string() + "'); c.execute('''" +
-                                statement + "'''); c.commit()\"";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-  }
 };
 
 TEST_F(AuditContents, AGoodCampaignHasNothingToComplainOf) { expect_found({}, 0); }
@@ -84,15 +78,15 @@ TEST_F(AuditContents, LabelsAndTheirImageChangedTogetherAreNamed) {
 }
 
 TEST_F(AuditContents, FramesThatTheStoreLostAreNamed) {
-  sql("DELETE FROM frames WHERE frame = 3");
+  change_store("c", "DELETE FROM frames WHERE frame = 3");
   expect_found({"the job store does not know frame 3", "frames/000/000003 is of no frame"});
-  sql("DELETE FROM frames WHERE frame = 1");
+  change_store("c", "DELETE FROM frames WHERE frame = 1");
   expect_found({"the job store does not know frame 1", "the job store does not know frame 3"});
 }
 
 TEST_F(AuditContents, AFrameIdThatIsNotThatOfItsSpecIsNamed) {
   const std::string id(64, 'a');
-  sql("UPDATE frames SET frame_id = '" + id + "' WHERE frame = 2");
+  change_store("c", "UPDATE frames SET frame_id = '" + id + "' WHERE frame = 2");
   Json manifest = Json::parse(*read_file(folder_ / file_of(2, "manifest.json")));
   manifest["frame_id"] = id;
   write(file_of(2, "manifest.json"), readable_json(manifest));

@@ -220,12 +220,7 @@ TEST_F(FaultsTest, AFrameThatTheStoreDidNotSeeIsTakenOver) {
   ASSERT_EQ(submit("{}").exit_code, 0);
   const std::string hash = status("c").at("dataset_hash");
   // As a crash between the rename and the row leaves it: complete on disk, unknown to the store.
-  ASSERT_EQ(std::system(("/usr/bin/python3 -c \"import sqlite3; c = sqlite3.connect('" +
-                         (folder_ / "c/campaign.sqlite").string() +
-                         "'); c.execute(\\\"update frames set state='running', pixel_hash='' "
-                         "where frame in (3, 6)\\\"); c.commit()\"")
-                            .c_str()),
-            0);
+  change_store("c", "UPDATE frames SET state = 'running', pixel_hash = '' WHERE frame IN (3, 6)");
   const Outcome outcome = resume();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_THAT(outcome.errors, HasSubstr("2 frames were complete on disk already"));

@@ -67,6 +67,46 @@ TEST_F(MovedTest, ExportsExplanationsAndComparisonsNeedNothingButTheCampaign) {
   EXPECT_EQ(run({"resume", "c"}).exit_code, 2) << "it would expand the config";
 }
 
+TEST_F(MovedTest, AnAuditOfItsFilesNeedsNothingButTheCampaign) {
+  fs::rename(folder_ / "project/c", folder_ / "c");
+  fs::remove_all(folder_ / "project");
+  const Outcome whole = run({"audit", "c", "--frames", "0"});
+  EXPECT_EQ(whole.exit_code, 0) << whole.errors;
+  EXPECT_THAT(whole.output, HasSubstr("3 frames"));
+  EXPECT_THAT(whole.output, HasSubstr("all as they were written"));
+  EXPECT_THAT(whole.output, HasSubstr("the config cannot be read here"));
+  const Outcome rendering = run({"audit", "c"});
+  EXPECT_EQ(rendering.exit_code, 2);
+  EXPECT_THAT(rendering.errors, HasSubstr("'--frames 0' reads the campaign's files without it"));
+
+  write("c/frames/000/000001/labels.json", "{}");
+  const Outcome damaged = run({"audit", "c", "--frames", "0"});
+  EXPECT_EQ(damaged.exit_code, 5);
+  EXPECT_THAT(damaged.output, HasSubstr("frame 1: "));
+}
+
+TEST_F(MovedTest, ACampaignThatNobodyMayWriteToIsRead) {
+  if (std::system("unshare --mount true 2>/dev/null") != 0) {
+    GTEST_SKIP() << "only root can make a folder that root cannot write to";
+  }
+  const auto read_only = [this](const std::string& words) {
+    const std::string script = fmt::format(
+        "cd '{}' && mount --bind project/c project/c && mount -o remount,bind,ro project/c && '{}' "
+        "{} >>out 2>&1",
+        folder_.string(), SEEDFRAME_PROGRAM, words);
+    write("script", script);
+    return std::system(("unshare --mount sh '" + (folder_ / "script").string() + "'").c_str());
+  };
+  EXPECT_EQ(read_only("status project/c"), 0);
+  EXPECT_EQ(read_only("explain project/c 1"), 0);
+  EXPECT_EQ(read_only("compare project/c project/c"), 0);
+  EXPECT_EQ(read_only("export project/c --format coco -o elsewhere"), 0);
+  EXPECT_EQ(read_only("audit project/c --frames 0 -o report"), 0);
+  EXPECT_TRUE(fs::exists(folder_ / "report/report.md"));
+  EXPECT_NE(read_only("audit project/c --frames 0"), 0);
+  EXPECT_THAT(*read_file(folder_ / "out"), HasSubstr("-o names another place"));
+}
+
 TEST_F(MovedTest, MoreScenesAreMoreFramesOfTheSameCampaign) {
   const Outcome fewer = run({"resume", "project/c", "--set", "scenes=2"});
   EXPECT_EQ(fewer.exit_code, 2);

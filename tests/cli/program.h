@@ -103,6 +103,14 @@ class ProgramTest : public ::testing::Test {
     return json ? *json : Json::object();
   }
 
+  /// Runs a statement of SQL on a campaign's job store.
+  void change_store(const std::string& campaign, const std::string& statement) const {
+    const std::string command = "/usr/bin/python3 -c \"import sqlite3; c = sqlite3.connect('" +
+                                (folder_ / campaign / "campaign.sqlite").string() +
+                                "'); c.execute('''" + statement + "'''); c.commit()\"";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+  }
+
   bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
   /// Every file below a folder by its path, with its bytes.
