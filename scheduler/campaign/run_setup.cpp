@@ -5,6 +5,7 @@
 #include "base/cores.h"
 #include "cache/known_worker.h"
 #include "campaign/color_config.h"
+#include "image/color_trial.h"
 #include "image_files/image_writer.h"
 #include "plan/worker_plan.h"
 #include "render/memory.h"
@@ -50,7 +51,7 @@ Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
   WorkerOptions& worker = options.worker;
   const std::unique_ptr<FrameCache> cache =
       FrameCache::open(options.no_cache ? std::filesystem::path() : setup.cache);
-  Result<Renderer> renderer = find_renderer(options.blender, settings.ocio_config, cache.get());
+  Result<Renderer> renderer = find_renderer(options.blender, &settings, cache.get());
   if (!renderer) return forward_error(renderer);
   if (Status known = check_view(settings, *renderer->color); !known) return forward_error(known);
   if (Status possible = check_encoding(settings.image_encoding); !possible) {
@@ -96,13 +97,29 @@ Status check_view(const CampaignSettings& settings, const ColorManagement& color
               known.error().message);
 }
 
-Result<Renderer> find_renderer(const std::string& program,
-                               const std::optional<std::filesystem::path>& ocio_config,
+namespace {
+
+/// The config that is to be used, tried if it may be a stranger's.
+Result<std::filesystem::path> color_config(const CampaignSettings* settings,
+                                           const BlenderInfo& blender) {
+  if (settings == nullptr || !settings->ocio_config) return find_ocio_config(blender);
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::canonical(*settings->ocio_config, error);
+  if (!error && !file.string().starts_with("/usr/share/")) {
+    if (Status usable = try_color_config(file, settings->image); !usable) {
+      return forward_error(usable);
+    }
+  }
+  return *settings->ocio_config;
+}
+
+}  // namespace
+
+Result<Renderer> find_renderer(const std::string& program, const CampaignSettings* settings,
                                FrameCache* cache) {
   Result<BlenderInfo> blender = known_blender(cache, program);
   if (!blender) return forward_error(blender);
-  const Result<std::filesystem::path> path =
-      ocio_config ? Result<std::filesystem::path>(*ocio_config) : find_ocio_config(*blender);
+  const Result<std::filesystem::path> path = color_config(settings, *blender);
   if (!path) return forward_error(path);
   Result<ColorManagement> color = ColorManagement::load(*path);
   if (!color) return forward_error(color);

@@ -22,10 +22,10 @@ struct Renderer {
   std::shared_ptr<const ColorManagement> color;
 };
 
-/// Blender and the colours that it works with, or those of `ocio_config`. With a cache a Blender
+/// Blender and the colours that it works with, or those that `settings` (if any) name, which are
+/// tried first (image/color_trial.h) unless a distribution brought them. With a cache a Blender
 /// that is known is not started. kEnvironment errors: no Blender, no colours.
-Result<Renderer> find_renderer(const std::string& program,
-                               const std::optional<std::filesystem::path>& ocio_config,
+Result<Renderer> find_renderer(const std::string& program, const CampaignSettings* settings,
                                FrameCache* cache);
 
 /// Whether there are the display, view and look that a config asks for; a kInput error names its

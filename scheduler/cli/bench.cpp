@@ -26,7 +26,7 @@ struct DeterminismArguments {
 };
 
 int bench_determinism(const DeterminismArguments& arguments) {
-  const Result<Renderer> renderer = find_renderer(arguments.blender, {}, nullptr);
+  const Result<Renderer> renderer = find_renderer(arguments.blender, nullptr, nullptr);
   if (!renderer) return report(renderer.error());
   const std::filesystem::path folder = arguments.output;
   if (Status made = make_folders(folder); !made) return report(made.error());

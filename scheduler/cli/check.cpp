@@ -62,7 +62,7 @@ Status check_colors(const CampaignSettings& settings, const std::string& blender
   const bool asked = !settings.image_place.file.empty();
   if (!asked || settings.labels != LabelSource::kIndexPass) return {};
   const std::unique_ptr<FrameCache> cache = FrameCache::open(cache_folder());
-  const Result<Renderer> renderer = find_renderer(blender, settings.ocio_config, cache.get());
+  const Result<Renderer> renderer = find_renderer(blender, &settings, cache.get());
   if (!renderer && renderer.error().kind == ErrorKind::kEnvironment) return {};
   if (!renderer) return forward_error(renderer);
   return check_view(settings, *renderer->color);

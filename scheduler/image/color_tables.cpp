@@ -1,5 +1,13 @@
 #include "image/color_tables.h"
 
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <pugixml.hpp>
+
 #include "base/allowed_folders.h"
 
 namespace seedframe {
@@ -24,16 +32,45 @@ class TableCheck {
 
  private:
   void look_at(const char* table) {
+    std::string path;
     try {
-      status_ = allowed_.check(context_->resolveFileLocation(table),
-                               fmt::format("its table '{}'", table));
+      path = context_->resolveFileLocation(table);
     } catch (const OCIO::ExceptionMissingFile&) {
-      // OpenColorIO will not find it either, and says so if a view needs it.
+      return;  // OpenColorIO will not find it either, and says so if a view needs it
     }
+    status_ = allowed_.check(path, fmt::format("its table '{}'", table));
+    if (status_) look_into(path);
+  }
+
+  /// Tables that are XML (CTF, CLF) may refer to further ones.
+  void look_into(const std::string& path) {
+    if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
+      status_ = fail(ErrorKind::kInput, "its table '{}' refers to itself", path);
+      return;
+    }
+    if (!seen_.insert(path).second || !begins_as_xml(path)) return;
+    pugi::xml_document document;
+    if (!document.load_file(path.c_str())) return;  // no XML after all
+    open_.push_back(path);
+    for (const pugi::xpath_node& found :
+         document.select_nodes("//*[translate(local-name(),'REFNC','refnc')='reference']/@path")) {
+      if (status_) look_at(found.attribute().value());
+    }
+    open_.pop_back();
+  }
+
+  static bool begins_as_xml(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string beginning(256, '\0');
+    file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    const std::size_t first = beginning.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    return first != std::string::npos && beginning[first] == '<';
   }
 
   OCIO::ConstContextRcPtr context_;
   AllowedFolders allowed_;
+  std::set<std::string> seen_;
+  std::vector<std::string> open_;  ///< tables, each referred to by the one before it
   Status status_;
 };
 

@@ -9,8 +9,9 @@
 
 namespace seedframe {
 
-/// Looks at every table that a colour space, a look or a view transform of the config names, before
-/// OpenColorIO opens it: one outside of `folder` is an error (kInput).
+/// Looks at every table that a colour space, a look or a view transform of the config names, and at
+/// those that these refer to, before OpenColorIO opens them. kInput errors: one is outside of
+/// `folder`, or refers to itself.
 Status check_color_tables(const OCIO_NAMESPACE::Config& config,
                           const std::filesystem::path& folder);
 

@@ -197,6 +197,22 @@ TEST_F(ColorManagementTest, TablesLieInTheFolderOfTheConfig) {
   EXPECT_THAT(error_of("luts", "!<FileTransform> {src: link.spi1d}"), HasSubstr(outside));
   EXPECT_TRUE(write_file(folder_ / "sub/luts/table.spi1d", "Version 1\n"));
   EXPECT_EQ(error_of("luts", file), "");
+
+  const auto refer_to = [&](const std::string& table, const std::string& other) {
+    EXPECT_TRUE(write_file(folder_ / "sub/luts" / table,
+                           "\n<?xml version='1.0'?><ProcessList id='a' version='2'>"
+                           "<Reference path='" +
+                               other + "'/></ProcessList>"));
+  };
+  refer_to("a.ctf", "b.ctf");
+  refer_to("b.ctf", "../../table.spi1d");
+  EXPECT_THAT(error_of("luts", "!<FileTransform> {src: a.ctf}"), HasSubstr(outside));
+  refer_to("b.ctf", "/dev/zero");
+  EXPECT_THAT(error_of("luts", "!<FileTransform> {src: a.ctf}"), HasSubstr(outside));
+  refer_to("b.ctf", "a.ctf");
+  EXPECT_THAT(error_of("luts", "!<FileTransform> {src: a.ctf}"), HasSubstr("refers to itself"));
+  refer_to("b.ctf", "table.spi1d");
+  EXPECT_EQ(error_of("luts", "!<FileTransform> {src: a.ctf}"), "");
 }
 
 TEST_F(ColorManagementTest, ThreadsShareIt) {
