@@ -99,8 +99,8 @@ Status check_new_campaign(const fs::path& folder) {
   if (!fs::is_empty(folder, error) && !fs::exists(files.lock(), error)) return not_empty(folder);
   if (fs::exists(files.store(), error)) {
     return fail(ErrorKind::kInput,
-                "{} holds a campaign already: 'seedframe resume' goes on with it, or give another "
-                "folder with -o",
+                "{} holds a campaign already: 'seedframe resume' goes on with it, --overwrite "
+                "removes it, -o names another folder",
                 folder.string());
   }
   return {};

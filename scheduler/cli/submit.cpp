@@ -19,6 +19,7 @@
 #include "console/run_options.h"
 #include "console/say.h"
 #include "console/temporary_folder.h"
+#include "cli/replace_campaign.h"
 #include "cli/verb.h"
 #include "plan/frame_bytes.h"
 #include "report/forecast.h"
@@ -34,6 +35,8 @@ struct SubmitArguments {
   std::vector<std::string> allowed;
   std::int64_t frames = 0;
   bool dry_run = false;
+  bool overwrite = false;
+  bool yes = false;
   int pilots = 0;  ///< frames to be made in a dry run
   RunOptions run;
 };
@@ -131,6 +134,11 @@ int submit(const SubmitArguments& arguments) {
     const std::chrono::duration<double> prepared_s = std::chrono::steady_clock::now() - begin;
     return tell_costs(arguments, *prepared, *setup, wanted, prepared_s.count());
   }
+  if (arguments.overwrite) {
+    if (Status cleared = clear_for_new_campaign(folder, arguments.yes); !cleared) {
+      return report(cleared.error());
+    }
+  }
   if (prepared->settings.quality) {
     if (Status possible = check_new_campaign(folder); !possible) return report(possible.error());
     if (Status chosen = choose_settings(*prepared, *setup); !chosen) return report(chosen.error());
@@ -168,6 +176,11 @@ void add_submit_verb(CLI::App& app, const OnSelected& on_selected) {
       ->type_name("N")
       ->needs(dry_run)
       ->check(CLI::Range(1, 10'000));
+  CLI::Option* overwrite =
+      verb->add_flag("--overwrite", arguments->overwrite,
+                     "remove the campaign that is in the folder, after asking")
+          ->excludes(dry_run);
+  verb->add_flag("--yes", arguments->yes, "with --overwrite: without asking")->needs(overwrite);
   add_run_options(*verb, arguments->run);
   verb->footer(
       "Example: seedframe submit configs/parts.yaml -o results/parts --set render.samples=16");

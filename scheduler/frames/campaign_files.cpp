@@ -35,6 +35,17 @@ fs::path CampaignFiles::rejected(std::int64_t frame) const {
   return root() / "rejected" / frame_stem(frame);
 }
 
+std::vector<std::filesystem::path> CampaignFiles::own() const {
+  std::vector<std::filesystem::path> all;
+  for (const char* name :
+       {"campaign.sqlite", "campaign.sqlite-wal", "campaign.sqlite-shm", "campaign.sqlite-journal",
+        "campaign.sqlite.new", "campaign.yaml", "campaign.lock", "provenance.json", "inputs",
+        "frames", "rejected", "audit", "exports", "logs", "work"}) {
+    all.push_back(root_ / name);
+  }
+  return all;
+}
+
 fs::path CampaignFiles::frame(std::int64_t frame) const {
   return frames() / fmt::format("{:03}", frame / 1000) / frame_stem(frame);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "spec/image_encoding.h"
 
@@ -47,6 +48,9 @@ class CampaignFiles {
 
   /// frames/<thousands>/<index>, for example frames/012/012345.
   std::filesystem::path frame(std::int64_t frame) const;
+
+  /// All that may lie in the root, the store first.
+  std::vector<std::filesystem::path> own() const;
 
  private:
   std::filesystem::path root_;

@@ -104,6 +104,29 @@ TEST_F(HealingTest, RowsOfFramesThatThereAreNotAreNamed) {
   EXPECT_THAT(resumed.errors, HasSubstr("it has a frame 99, and the campaign has 8 frames"));
 }
 
+TEST_F(HealingTest, OverwriteRemovesACampaignAndNothingElseAndOnlyIfItMay) {
+  const auto submit_over = [this](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"submit", "labels.yaml", "-o", "c", "--quiet",
+                                      "--set",  "scenes=1",    "--overwrite"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  const Outcome asked = submit_over({});
+  EXPECT_EQ(asked.exit_code, 2) << "nobody answers";
+  EXPECT_THAT(asked.errors, HasSubstr("a campaign with 8 finished frames of 8"));
+  EXPECT_THAT(asked.errors, HasSubstr("'--overwrite --yes'"));
+  write("c/notes.txt", "mine");
+  const Outcome strange = submit_over({"--yes"});
+  EXPECT_EQ(strange.exit_code, 2);
+  EXPECT_THAT(strange.errors, HasSubstr("notes.txt"));
+  EXPECT_EQ(dataset_hash(), hash_);
+  fs::remove(folder_ / "c/notes.txt");
+  const Outcome made = submit_over({"--yes"});
+  EXPECT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_EQ(status("c").at("done"), 2);
+  EXPECT_FALSE(fs::exists(frame(2)));
+}
+
 TEST_F(HealingTest, AFolderThatIsMovedWhileItIsRunEndsTheRunAndGoesOnWhereItIs) {
   Outcome moved;
   std::thread running([&] {
