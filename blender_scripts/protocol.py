@@ -24,6 +24,7 @@ class RenderRequest:
     meshes: dict
     textures: dict
     sample_counts: bool
+    save_scene: bool
 
     @staticmethod
     def parse(line):
@@ -33,7 +34,8 @@ class RenderRequest:
             raise ProtocolError(f"a request is no JSON ({error}): {line[:200]!r}") from None
         if not isinstance(message, dict) or message.get("type") != "render":
             raise ProtocolError(f"expected a 'render' request, got {line[:200]!r}")
-        message.setdefault("sample_counts", False)
+        for wish in ("sample_counts", "save_scene"):
+            message.setdefault(wish, False)
         kinds = {field.name: field.type for field in dataclasses.fields(RenderRequest)}
         for key, kind in kinds.items():
             if not isinstance(message.get(key), kind):

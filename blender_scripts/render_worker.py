@@ -18,6 +18,7 @@ import cpu_kernel  # noqa: E402
 import render_devices  # noqa: E402
 from passes import PassRenderer, sharp_output  # noqa: E402
 from protocol import SPEC_VERSIONS, Channel, Done, Failed, Ready  # noqa: E402
+from saved_scene import save_scene  # noqa: E402
 from scene_builder import SceneBuilder  # noqa: E402
 
 _LONGEST_ERROR = 2000
@@ -48,6 +49,8 @@ def _answer(request, builder, renderer):
         builder.build(request.spec, request.meshes, request.textures)
         built = time.perf_counter()
         renderer.render(request.spec["render"], request.output, request.frame_id, request.sample_counts)
+        if request.save_scene:
+            save_scene(request.output)
         if builder.make_sharp():  # the lens disturbs all passes: labels come from a pinhole
             once = {**request.spec["render"], "samples": 1, "adaptive": None, "denoise": "off"}
             renderer.render(once, sharp_output(request.output), request.frame_id)

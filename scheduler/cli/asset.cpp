@@ -17,11 +17,11 @@
 #include "base/utf8.h"
 #include "cli/asset_keypoints.h"
 #include "cli/asset_report.h"
+#include "cli/verb.h"
 #include "console/exit_code.h"
 #include "console/home.h"
 #include "console/progress.h"
 #include "console/say.h"
-#include "cli/verb.h"
 
 namespace seedframe {
 namespace {

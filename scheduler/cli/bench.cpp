@@ -8,11 +8,11 @@
 #include "base/files.h"
 #include "campaign/run_setup.h"
 #include "cli/bench_error.h"
+#include "cli/verb.h"
 #include "console/blender_option.h"
 #include "console/exit_code.h"
 #include "console/home.h"
 #include "console/say.h"
-#include "cli/verb.h"
 #include "study/study_run.h"
 
 namespace seedframe {

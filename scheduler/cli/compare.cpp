@@ -7,11 +7,11 @@
 
 #include "audit/campaign_comparison.h"
 #include "base/message_text.h"
+#include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/exit_code.h"
 #include "console/say.h"
 #include "console/tolerance_options.h"
-#include "cli/verb.h"
 
 namespace seedframe {
 namespace {

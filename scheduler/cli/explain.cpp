@@ -7,11 +7,11 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/campaign.h"
+#include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/exit_code.h"
 #include "console/home.h"
 #include "console/say.h"
-#include "cli/verb.h"
 #include "export/kept_inputs.h"
 #include "plan/left_out.h"
 #include "report/frame_explanation.h"

@@ -12,9 +12,9 @@
 #include <CLI/CLI.hpp>
 
 #include "base/nearest_name.h"
+#include "cli/verb.h"
 #include "console/exit_code.h"
 #include "console/home.h"
-#include "cli/verb.h"
 
 namespace {
 

@@ -6,9 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/verb.h"
 #include "console/exit_code.h"
 #include "console/say.h"
-#include "cli/verb.h"
 #include "manual/describe_command.h"
 
 namespace seedframe {

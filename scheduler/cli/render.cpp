@@ -8,6 +8,7 @@
 #include "base/cores.h"
 #include "base/files.h"
 #include "campaign/campaign.h"
+#include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/blender_option.h"
 #include "console/exit_code.h"
@@ -15,7 +16,6 @@
 #include "console/run_options.h"
 #include "console/say.h"
 #include "console/temporary_folder.h"
-#include "cli/verb.h"
 #include "frames/rendered_frame.h"
 #include "image/exr_file.h"
 #include "image_files/image_writer.h"
@@ -31,6 +31,7 @@ struct RenderArguments {
   int samples = 0;
   std::vector<std::string> set;
   std::string output;
+  std::string blend;  ///< file for the scene; empty: none
   std::vector<std::string> allowed;
   RunOptions run;
 };
@@ -87,15 +88,25 @@ Result<PreparedCampaign> prepare_with(const Campaign& campaign, const RenderArgu
 class OneFrame : public SideClient {
  public:
   OneFrame(const SceneExpander& expander, std::int64_t frame, const ColorManagement& color,
-           fs::path file)
-      : expander_(expander), frame_(frame), color_(color), file_(std::move(file)) {}
+           fs::path file, fs::path blend)
+      : expander_(expander),
+        frame_(frame),
+        color_(color),
+        file_(std::move(file)),
+        blend_(std::move(blend)) {}
 
   Result<ExpandedFrame> frame(std::int64_t) override { return expander_.expand(frame_); }
   Status rendered(std::int64_t, const SideFrame& frame) override {
     timings = frame.timings;
     samples = frame.spec.render.samples;
+    if (!blend_.empty()) {
+      const Result<std::string> scene = read_file(frame.scene);
+      if (!scene) return forward_error(scene);
+      if (Status written = write_file(blend_, *scene); !written) return written;
+    }
     return write_picture(frame, color_, file_);
   }
+  bool wants_scene(std::int64_t) const override { return !blend_.empty(); }
   void failed(std::int64_t, const std::string& why) override {
     failure = fail(ErrorKind::kRender, "frame {} was not rendered: {}", frame_, why);
   }
@@ -109,6 +120,7 @@ class OneFrame : public SideClient {
   std::int64_t frame_;
   const ColorManagement& color_;
   fs::path file_;
+  fs::path blend_;
 };
 
 int render(const RenderArguments& arguments) {
@@ -129,13 +141,16 @@ int render(const RenderArguments& arguments) {
   print_notes(*setup);
   const Result<TemporaryFolder> scratch = TemporaryFolder::make("seedframe-render");
   if (!scratch) return report(scratch.error());
-  OneFrame frame(prepared->expander, arguments.frame, *setup->color, file);
+  OneFrame frame(prepared->expander, arguments.frame, *setup->color, file, arguments.blend);
   if (Status done = render_aside(1, *setup, scratch->path(), frame); !done) {
     return report(done.error());
   }
   if (!frame.failure) return report(frame.failure.error());
   say("{} is frame {} at {} samples: {:.1f} s, {:.1f} CPU s\n", file.string(), arguments.frame,
       frame.samples, frame.timings.build_s + frame.timings.render_s, frame.timings.cpu_s);
+  if (!arguments.blend.empty()) {
+    say("{} is its scene, for Blender {} or later\n", arguments.blend, setup->blender.version);
+  }
   return kExitOk;
 }
 
@@ -158,6 +173,12 @@ void add_render_verb(CLI::App& app, const OnSelected& on_selected) {
                    "file: .png, .jpg, .webp or .tif as displayed, .exr scene-linear (default: "
                    "frame-N.png)")
       ->type_name("FILE");
+  verb->add_option("--save-blend", arguments->blend,
+                   "file for the frame's scene, to be opened in Blender, its images in it")
+      ->type_name("FILE.blend")
+      ->check([](const std::string& file) {
+        return file.ends_with(".blend") ? "" : "'" + file + "' does not end in .blend";
+      });
   verb->add_option("--threads", arguments->run.worker.threads, "of Blender (default: all cores)")
       ->check(CLI::Range(1, 1024));
   add_blender_option(*verb, arguments->run.blender);

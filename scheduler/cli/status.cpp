@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/verb.h"
 #include "console/exit_code.h"
 #include "console/progress.h"
 #include "console/say.h"
-#include "cli/verb.h"
 #include "report/campaign_status.h"
 
 namespace seedframe {

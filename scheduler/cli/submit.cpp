@@ -10,6 +10,8 @@
 #include "campaign/disk_space.h"
 #include "campaign/input_images.h"
 #include "campaign/run_setup.h"
+#include "cli/replace_campaign.h"
+#include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/choose_settings.h"
 #include "console/exit_code.h"
@@ -19,8 +21,6 @@
 #include "console/run_options.h"
 #include "console/say.h"
 #include "console/temporary_folder.h"
-#include "cli/replace_campaign.h"
-#include "cli/verb.h"
 #include "plan/frame_bytes.h"
 #include "report/forecast.h"
 #include "scene/expansion_summary.h"
@@ -176,10 +176,9 @@ void add_submit_verb(CLI::App& app, const OnSelected& on_selected) {
       ->type_name("N")
       ->needs(dry_run)
       ->check(CLI::Range(1, 10'000));
-  CLI::Option* overwrite =
-      verb->add_flag("--overwrite", arguments->overwrite,
-                     "remove the campaign that is in the folder, after asking")
-          ->excludes(dry_run);
+  CLI::Option* overwrite = verb->add_flag("--overwrite", arguments->overwrite,
+                                          "remove the campaign that is in the folder, after asking")
+                               ->excludes(dry_run);
   verb->add_flag("--yes", arguments->yes, "with --overwrite: without asking")->needs(overwrite);
   add_run_options(*verb, arguments->run);
   verb->footer(

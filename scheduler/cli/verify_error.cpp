@@ -8,13 +8,13 @@
 #include <CLI/CLI.hpp>
 
 #include "campaign/campaign.h"
+#include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/exit_code.h"
 #include "console/home.h"
 #include "console/run_options.h"
 #include "console/say.h"
 #include "console/temporary_folder.h"
-#include "cli/verb.h"
 #include "manual/describe_command.h"
 #include "quality/error_check.h"
 #include "quality/error_record.h"

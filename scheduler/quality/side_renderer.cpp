@@ -64,6 +64,7 @@ class SideRun : private RenderClient {
         [this](const std::string& sha256) { return scratch_ / (sha256 + ".mesh"); });
     if (!request) return forward_error(request);
     request->sample_counts = client_.wants_sample_counts(job.frame);
+    request->save_scene = client_.wants_scene(job.frame);
     tasks_[job] = std::move(task);
     return std::move(*request);
   }
@@ -83,8 +84,10 @@ class SideRun : private RenderClient {
     fs::remove(task.rendered, ignored);
     fs::remove(sharp_passes(task.rendered), ignored);
     if (!passes) return forward_error(passes);
+    const fs::path scene = client_.wants_scene(job.frame) ? saved_scene(task.rendered) : fs::path();
     const Status judged = client_.rendered(
-        job.frame, {std::move(task.spec), std::move(task.id), std::move(*passes), timings});
+        job.frame, {std::move(task.spec), std::move(task.id), std::move(*passes), timings, scene});
+    if (!scene.empty()) fs::remove(scene, ignored);
     if (!judged) {
       const std::lock_guard lock(mutex_);
       if (error_) error_ = judged;

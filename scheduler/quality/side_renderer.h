@@ -22,6 +22,8 @@ struct SideFrame {
   std::string id;
   FramePasses passes;
   RenderTimings timings;
+  std::filesystem::path
+      scene;  ///< a .blend that goes when it was looked at; empty: nobody wants it
 };
 
 /// What the renderer asks and tells. `frame` comes from the thread that is in render(), `rendered`
@@ -33,6 +35,7 @@ class SideClient {
   virtual Result<ExpandedFrame> frame(std::int64_t job) = 0;
   /// Whether its passes are to have sample_shares.
   virtual bool wants_sample_counts(std::int64_t /*job*/) const { return false; }
+  virtual bool wants_scene(std::int64_t /*job*/) const { return false; }
   /// An error ends all.
   virtual Status rendered(std::int64_t job, const SideFrame& frame) = 0;
   /// A job that could not be rendered.

@@ -50,17 +50,22 @@ WorkerMessage read_message(const Json& json) {
 
 }  // namespace
 
+std::filesystem::path saved_scene(const std::filesystem::path& output) {
+  return output.string() + ".blend";
+}
+
 std::string encode_render_message(const FrameJob& job, const RenderRequest& request) {
   // The spec is JSON already; reading it again would cost more than sending it.
   const auto replace = Json::error_handler_t::replace;
   return fmt::format(
-      R"({{"type":"render","frame":{},"attempt":{},"frame_id":{},"output":{},"meshes":{},"textures":{}{},"spec":{}}})"
+      R"({{"type":"render","frame":{},"attempt":{},"frame_id":{},"output":{},"meshes":{},"textures":{}{}{},"spec":{}}})"
       "\n",
       job.frame, job.attempt, Json(request.frame_id).dump(),
       Json(request.output.string()).dump(-1, ' ', false, replace),
       path_table(request.meshes).dump(-1, ' ', false, replace),
       path_table(request.textures).dump(-1, ' ', false, replace),
-      request.sample_counts ? R"(,"sample_counts":true)" : "", request.spec);
+      request.sample_counts ? R"(,"sample_counts":true)" : "",
+      request.save_scene ? R"(,"save_scene":true)" : "", request.spec);
 }
 
 Result<WorkerMessage> parse_worker_message(std::string_view line) {

@@ -22,6 +22,7 @@ struct RenderRequest {
   std::map<std::string, std::filesystem::path> meshes;    ///< SHA-256 -> mesh buffer
   std::map<std::string, std::filesystem::path> textures;  ///< SHA-256 -> image file
   bool sample_counts = false;  ///< the file is to say how many samples pixels had
+  bool save_scene = false;     ///< the scene is to be saved as saved_scene(output)
 };
 
 /// Where the time of a rendered frame went, in seconds.
@@ -65,6 +66,9 @@ struct FailedMessage {
 };
 
 using WorkerMessage = std::variant<ReadyMessage, AliveMessage, DoneMessage, FailedMessage>;
+
+/// Where a worker saves the scene that it has rendered, with its images in it.
+std::filesystem::path saved_scene(const std::filesystem::path& output);
 
 /// One line, with its line feed.
 std::string encode_render_message(const FrameJob& job, const RenderRequest& request);

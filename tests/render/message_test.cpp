@@ -34,6 +34,9 @@ TEST(Message, AsksForSampleCountsOnlyWhereTheyAreWanted) {
   RenderRequest request;
   request.spec = "{}";
   EXPECT_FALSE(Json::parse(encode_render_message({0, 1}, request)).contains("sample_counts"));
+  EXPECT_FALSE(Json::parse(encode_render_message({0, 1}, request)).contains("save_scene"));
+  request.save_scene = true;
+  EXPECT_EQ(Json::parse(encode_render_message({0, 1}, request))["save_scene"], true);
   request.sample_counts = true;
   EXPECT_EQ(Json::parse(encode_render_message({0, 1}, request))["sample_counts"], true);
 }

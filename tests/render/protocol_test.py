@@ -28,6 +28,10 @@ class RenderRequestTest(unittest.TestCase):
     def test_ignores_keys_that_it_does_not_know(self):
         RenderRequest.parse(json.dumps({**REQUEST, "later": 1}).encode())
 
+    def test_saves_the_scene_only_where_it_is_asked_to(self):
+        self.assertFalse(RenderRequest.parse(json.dumps(REQUEST).encode()).save_scene)
+        self.assertTrue(RenderRequest.parse(json.dumps({**REQUEST, "save_scene": True}).encode()).save_scene)
+
     def test_asks_for_sample_counts_only_where_it_says_so(self):
         self.assertFalse(RenderRequest.parse(json.dumps(REQUEST).encode()).sample_counts)
         self.assertTrue(RenderRequest.parse(json.dumps({**REQUEST, "sample_counts": True}).encode()).sample_counts)
