@@ -7,6 +7,7 @@
 
 #include "assets/asset_files.h"
 #include "assets/asset_level_file.h"
+#include "assets/uv_scale.h"
 #include "base/nearest_name.h"
 #include "base/sha256.h"
 #include "mesh/mesh_buffer.h"
@@ -62,6 +63,8 @@ Result<Asset> read_asset(const fs::path& folder) {
   asset.category = description->category;
   asset.description = description->description;
   asset.mesh = std::move(*mesh);
+  asset.metres_per_uv = has_uvs(asset.mesh) ? metres_per_uv(asset.mesh) : 1.0;
+  if (!has_uvs(asset.mesh)) project_uvs(asset.mesh);
   asset.mesh_sha256 = description->levels[0].sha256;
   asset.buffer = mesh_buffer(asset.mesh);
   asset.buffer_sha256 = sha256_hex(asset.buffer);
@@ -153,6 +156,7 @@ Result<std::shared_ptr<const LevelMesh>> AssetLibrary::load_level(const std::str
   }
   auto mesh = read_level_mesh(*asset_folder, *description, level);
   if (!mesh) return forward_error(mesh);
+  if (!has_uvs(*mesh)) project_uvs(*mesh);
   LevelMesh read{.mesh = std::move(*mesh), .buffer = {}, .buffer_sha256 = {}};
   read.buffer = mesh_buffer(read.mesh);
   read.buffer_sha256 = sha256_hex(read.buffer);

@@ -41,6 +41,7 @@ struct Asset {
   std::uint64_t bytes = 0;            ///< of mesh.drc
   std::vector<LevelOfDetail> levels;  ///< at least one, finest first
   BoundingBox box;
+  double metres_per_uv = 1.0;  ///< see metres_per_uv(mesh); exactly 1 if they were projected
   KeypointSet keypoints;
   AssetMaterials materials;  ///< of slots, their files with the asset's folder; may have none
   LowestPoint lowest;

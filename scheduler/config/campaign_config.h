@@ -109,6 +109,7 @@ struct MaterialConfig {
   Place place;
   ColorSource base_color;
   NumberSource metallic, roughness, specular, transmission, ior, clearcoat, texture_repeat;
+  std::optional<NumberSource> texture_size_m;  ///< in place of texture_repeat
   std::optional<NameSource> textures;  ///< name of a texture set
 };
 

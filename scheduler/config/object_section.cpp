@@ -27,6 +27,11 @@ MaterialConfig read_material(const std::string& name, const ConfigNode& node, Di
   material.ior = section.number("ior", 1.45);
   material.clearcoat = section.number("clearcoat", 0.0);
   material.texture_repeat = section.number("texture_repeat", 1.0);
+  material.texture_size_m = section.optional_number("texture_size_m");
+  if (material.texture_size_m && node.find("texture_repeat")) {
+    errors.add(node.find("texture_repeat")->place(),
+               "texture_repeat and texture_size_m say the same in two ways: remove one");
+  }
   section.refuse_other_keys();
   return material;
 }

@@ -18,6 +18,7 @@ struct CompiledMaterial {
   Place place;
   ColorDraw base_color;
   NumberDraw metallic, roughness, specular, transmission, ior, clearcoat, texture_repeat;
+  std::optional<NumberDraw> texture_size_m;  ///< in place of texture_repeat
   std::optional<NameDraw> textures;
 };
 

@@ -90,7 +90,8 @@ void GroundMaker::add(const CompiledGround& ground, const MaterialPicker& materi
   PlacedInstance instance;
   instance.spec.name = "ground";
   instance.spec.mesh = made->sha256;
-  instance.spec.materials = {materials.add(ground.materials, nullptr, draft, context)};
+  instance.spec.materials = {
+      put_on(materials.draw(ground.materials, nullptr, draft.used, context), 1.0, draft)};
   instance.buffer = {made, &made->buffer};
   draft.placed.push_back(std::move(instance));
 }

@@ -39,20 +39,27 @@ int index_of(MaterialSpec material, std::vector<MaterialSpec>& known) {
 
 }  // namespace
 
-int MaterialPicker::add(const CompiledMaterials& materials, const AssetSlot* slot,
-                        FrameDraft& draft, EvaluationContext& context) const {
+int put_on(DrawnMaterial material, double metres_per_uv, FrameDraft& draft) {
+  if (material.texture_size_m > 0.0) {
+    material.spec.texture_repeat = metres_per_uv / material.texture_size_m;
+  }
+  return index_of(std::move(material.spec), draft.spec.materials);
+}
+
+DrawnMaterial MaterialPicker::draw(const CompiledMaterials& materials, const AssetSlot* slot,
+                                   UsedFiles& used, EvaluationContext& context) const {
   const std::string name = draw_name_of(materials, context);
   if (slot != nullptr && materials.can_be_own && name == kOwnMaterial) {
-    return index_of(own_material(*slot, materials.place, draft.used, context),
-                    draft.spec.materials);
+    return {own_material(*slot, materials.place, used, context)};
   }
   const auto found = materials.by_name.find(name);
   if (found == materials.by_name.end()) {
     context.report(materials.place, library_.no_material(name));
-    return 0;
+    return {};
   }
   const CompiledMaterial& source = found->second;
-  MaterialSpec material;
+  DrawnMaterial drawn;
+  MaterialSpec& material = drawn.spec;
   material.base_color = source.base_color.evaluate(context);
   material.metallic = within(source.metallic, 0, 1, "metallic", context);
   material.roughness = within(source.roughness, 0, 1, "roughness", context);
@@ -61,13 +68,16 @@ int MaterialPicker::add(const CompiledMaterials& materials, const AssetSlot* slo
   material.ior = within(source.ior, 1, 5, "ior", context);
   material.clearcoat = within(source.clearcoat, 0, 1, "clearcoat", context);
   material.texture_repeat = positive(source.texture_repeat, "texture_repeat", context);
+  if (source.texture_size_m) {
+    drawn.texture_size_m = positive(*source.texture_size_m, "texture_size_m", context);
+  }
   if (source.textures) {
     // The material of a texture set stands in no file: then it is the user of it who is named.
     const Place& named = source.textures->place();
     add_textures(source.textures->evaluate(context), named.file.empty() ? materials.place : named,
-                 material, draft.used, context);
+                 material, used, context);
   }
-  return index_of(std::move(material), draft.spec.materials);
+  return drawn;
 }
 
 MaterialSpec MaterialPicker::own_material(const AssetSlot& slot, const Place& place,

@@ -18,6 +18,17 @@ struct AssetSlot {
   const std::string& name;
 };
 
+/// A material that is not yet on anything.
+struct DrawnMaterial {
+  MaterialSpec spec;
+  double texture_size_m =
+      0.0;  ///< width of an image on the surface; 0: spec.texture_repeat says it
+};
+
+/// Puts it on a surface of so many metres per UV unit; returns its index in the spec's materials,
+/// where equal ones are one.
+int put_on(DrawnMaterial material, double metres_per_uv, FrameDraft& draft);
+
 /// Safe to use from several threads.
 class MaterialPicker {
  public:
@@ -26,10 +37,9 @@ class MaterialPicker {
 
   const MaterialLibrary& library() const { return library_; }
 
-  /// Draws a material; returns its index in the spec's materials, where equal ones are one. Without
-  /// a slot of an asset the draw cannot be kOwnMaterial.
-  int add(const CompiledMaterials& materials, const AssetSlot* slot, FrameDraft& draft,
-          EvaluationContext& context) const;
+  /// Without a slot of an asset the draw cannot be kOwnMaterial.
+  DrawnMaterial draw(const CompiledMaterials& materials, const AssetSlot* slot, UsedFiles& used,
+                     EvaluationContext& context) const;
 
   /// SHA-256 of an environment map's file, by its name.
   std::string hdri(const NameDraw& draw, FrameDraft& draft, EvaluationContext& context) const;

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/nearest_name.h"
+#include "base/portable_math.h"
 #include "scene/grid.h"
 #include "scene/level_choice.h"
 
@@ -237,13 +238,14 @@ void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3
   if (section.copies++ == 0) {
     section.world_from_first = parent.world_from_parent * parent_from_unscaled;
   }
-  int material = object.material_of_parent ? parent.material : -1;
+  std::optional<DrawnMaterial> material;
+  if (object.material_of_parent) material = parent.material;
   if (asset) place_instance(object, asset, {name, world_from_object}, material, pass);
   if (object.objects.empty()) return;
-  if (material < 0 && object.material_for_objects) {
-    material = pass.materials.add(object.materials, nullptr, pass.draft, context);
+  if (!material && object.material_for_objects) {
+    material = pass.materials.draw(object.materials, nullptr, pass.draft.used, context);
   }
-  Parent group{world_from_object, context.copy, name + "/", material, {}};
+  Parent group{world_from_object, context.copy, name + "/", std::move(material), {}};
   for (const CompiledObject& child : object.objects) {
     if (!context.error) place(child, group, pass);
   }
@@ -268,7 +270,8 @@ Eigen::Matrix3d ObjectPlacer::stand(const CompiledObject& object, const Asset& a
 
 void ObjectPlacer::place_instance(const CompiledObject& object,
                                   const std::shared_ptr<const Asset>& asset,
-                                  const Placement& placement, int& material, Pass& pass) const {
+                                  const Placement& placement,
+                                  std::optional<DrawnMaterial>& material, Pass& pass) const {
   PlacedInstance instance;
   instance.spec.name = placement.name;
   instance.spec.id = ++pass.draft.objects;
@@ -280,7 +283,12 @@ void ObjectPlacer::place_instance(const CompiledObject& object,
   instance.spec.asset = asset->name;
   instance.spec.keypoints = asset->keypoints.points;
   instance.spec.mesh = asset->buffer_sha256;
-  instance.spec.materials = slot_materials(object, *asset, material, pass);
+  // A mean of the three axes of a copy that is scaled along each; as a float, so that copies which
+  // are only turned do not differ by rounding, and share their materials.
+  const double volume = std::abs(placement.world_from_object.linear().determinant());
+  const double scale = static_cast<float>(portable::pow(volume, 1.0 / 3.0));
+  instance.spec.materials =
+      slot_materials(object, *asset, asset->metres_per_uv * scale, material, pass);
   instance.spec.hidden_from = object.hidden_from;
   if (!is_computable(placement.world_from_object)) {
     pass.context.report(object.place,
@@ -314,23 +322,26 @@ void ObjectPlacer::choose_levels(FrameDraft& draft, EvaluationContext& context) 
 }
 
 std::vector<int> ObjectPlacer::slot_materials(const CompiledObject& object, const Asset& asset,
-                                              int& common, Pass& pass) {
+                                              double metres_per_uv,
+                                              std::optional<DrawnMaterial>& common, Pass& pass) {
   std::vector<int> materials;
   auto* const record = pass.context.record;
   for (const std::string& slot : asset.mesh.slot_names) {
     const AssetSlot of_asset{asset, slot};
     const auto special = object.slots.find(slot);
     if (special != object.slots.end()) {
-      materials.push_back(pass.materials.add(special->second, &of_asset, pass.draft, pass.context));
+      materials.push_back(
+          put_on(pass.materials.draw(special->second, &of_asset, pass.draft.used, pass.context),
+                 metres_per_uv, pass.draft));
       continue;
     }
     // The same draw for all slots; if it says that they have their own, each has another.
-    if (common < 0 || object.materials.can_be_own) {
-      if (common >= 0) pass.context.record = nullptr;
-      common = pass.materials.add(object.materials, &of_asset, pass.draft, pass.context);
+    if (!common || object.materials.can_be_own) {
+      if (common) pass.context.record = nullptr;
+      common = pass.materials.draw(object.materials, &of_asset, pass.draft.used, pass.context);
       pass.context.record = record;
     }
-    materials.push_back(common);
+    materials.push_back(put_on(*common, metres_per_uv, pass.draft));
   }
   return materials;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,9 @@ class ObjectPlacer {
   /// What a copy stands in: the world, or a copy of a group.
   struct Parent {
     Affine world_from_parent = Affine::Identity();
-    std::uint32_t copy = kNoIndex;  ///< as draws know it
-    std::string name;               ///< "row/1/", before the names of what is in it
-    int material = -1;              ///< of the spec's, for what takes its parent's
+    std::uint32_t copy = kNoIndex;          ///< as draws know it
+    std::string name;                       ///< "row/1/", before the names of what is in it
+    std::optional<DrawnMaterial> material;  ///< for what takes its parent's
     std::vector<Footprint> footprints;
   };
   struct Pass {  // what one frame's placing carries around
@@ -57,14 +58,16 @@ class ObjectPlacer {
   };
   /// `material`: see slot_materials.
   void place_instance(const CompiledObject& object, const std::shared_ptr<const Asset>& asset,
-                      const Placement& placement, int& material, Pass& pass) const;
+                      const Placement& placement, std::optional<DrawnMaterial>& material,
+                      Pass& pass) const;
   /// The rotation that puts an asset onto one of its stable faces, which is drawn.
   Eigen::Matrix3d stand(const CompiledObject& object, const Asset& asset,
                         const Eigen::Vector3d& scale, EvaluationContext& context) const;
-  /// `common`, the material of slots without one of their own, is drawn if a slot needs it and it
-  /// is -1.
+  /// `common`, the material of slots without one of their own, is drawn if a slot needs it and
+  /// there is none. `metres_per_uv` is of the copy.
   static std::vector<int> slot_materials(const CompiledObject& object, const Asset& asset,
-                                         int& common, Pass& pass);
+                                         double metres_per_uv, std::optional<DrawnMaterial>& common,
+                                         Pass& pass);
   /// `assets`: those that the object may have, if that is known.
   void check_categories(const CompiledObject& object,
                         const std::optional<std::vector<std::string>>& assets,

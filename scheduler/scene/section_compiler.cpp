@@ -17,6 +17,9 @@ CompiledMaterial SectionCompiler::material(const MaterialConfig& config,
   material.ior = inner.number(config.ior, "ior");
   material.clearcoat = inner.number(config.clearcoat, "clearcoat");
   material.texture_repeat = inner.number(config.texture_repeat, "texture_repeat");
+  if (config.texture_size_m) {
+    material.texture_size_m = inner.number(*config.texture_size_m, "texture_size_m");
+  }
   if (config.textures) {
     material.textures = inner.text(*config.textures, "textures");
     refuse_unknown(*material.textures, library.texture_sets(), library,

@@ -56,6 +56,58 @@ TEST(MaterialShare, ZeroAndOneLeaveNothingToTheOthers) {
   EXPECT_EQ(all.at("Planks01") + all.at("Fabric01"), kMaterialScenes);
 }
 
+/// texture_repeat of the materials of a frame, in the order of its instances.
+std::vector<double> repeats(const std::string& objects) {
+  auto expander = expander_of(
+      "seedframe: 1\nmaterials: {wood: {textures: Planks01, "
+      "texture_size_m: 0.4}, plain: {textures: Planks01}}\n" +
+      objects + "\ncamera: {distance_m: 1}\n");
+  EXPECT_TRUE(expander) << expander.error().message;
+  std::vector<double> found;
+  if (!expander) return found;
+  const auto frame = expander->expand(0);
+  EXPECT_TRUE(frame) << frame.error().message;
+  if (!frame) return found;
+  for (const InstanceSpec& instance : frame->spec.instances) {
+    const auto index = static_cast<std::size_t>(instance.materials[0]);
+    found.push_back(frame->spec.materials[index].texture_repeat);
+  }
+  return found;
+}
+
+TEST(TextureSize, OnTheGroundAnImageIsAsWideAsItSays) {
+  EXPECT_EQ(repeats("ground: {width_m: 2, depth_m: 2, material: wood}"),
+            std::vector<double>{1.0 / 0.4});
+  EXPECT_EQ(repeats("ground: {width_m: 2, depth_m: 2, material: plain}"), std::vector<double>{1.0});
+}
+
+TEST(TextureSize, OnAnObjectItGoesWithTheObjectsScale) {
+  const auto found = repeats(
+      "objects: {a: {asset: cube, category: none, material: wood}, b: {asset: cube, category: "
+      "none, scale: 2, rotation_deg: [10, 20, 30], material: wood}, g: {scale: 4, material: wood, "
+      "objects: {c: {asset: cube, category: none, scale: 0.5, material: parent}}}}");
+  ASSERT_EQ(found.size(), 3U);
+  const auto cube = AssetLibrary::open({SEEDFRAME_HOME "/assets"})->load("cube");
+  EXPECT_EQ(found[0], (*cube)->metres_per_uv / 0.4);
+  EXPECT_EQ(found[1], 2.0 * found[0]);
+  EXPECT_EQ(found[2], 2.0 * found[0]) << "by its parent's scale, too";
+}
+
+TEST(TextureSize, IsInPlaceOfTheRepeatsAndAboveZero) {
+  const auto message = [](const std::string& material) {
+    const auto expander =
+        expander_of("seedframe: 1\nmaterials: {wood: {textures: Planks01, " + material +
+                    "}}\nobjects: {o: {asset: cube, category: none, material: wood}}\n"
+                    "camera: {distance_m: 1}\n");
+    if (!expander) return expander.error().message;
+    const auto frame = expander->expand(0);
+    return frame ? std::string() : frame.error().message;
+  };
+  EXPECT_THAT(message("texture_size_m: 1, texture_repeat: 2"), HasSubstr("in two ways"));
+  EXPECT_THAT(message("texture_size_m: 0"), HasSubstr("texture_size_m must be above 0"));
+  EXPECT_EQ(message("texture_size_m: {uniform: [0.1, 0.2]}"), "");
+}
+
 TEST(MaterialShare, AKindThatIsNeverTakenMayBeEmpty) {
   EXPECT_EQ(taken("{realistic_share: 0, realistic: []}").count("default"), 0u);
   EXPECT_EQ(taken("{realistic_share: 1, parametric: []}").count("steel"), 0u);
