@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "assets/symmetry.h"
 #include "base/canonical_json.h"
 #include "mesh/corner_normals.h"
 #include "mesh/mesh_diameter.h"
@@ -80,17 +81,41 @@ std::string ply_of(const Mesh& mesh) {
   return bytes;
 }
 
+/// As the toolkit reads them: 4 × 4 matrices in rows, millimetres.
+void add_symmetries(const Symmetries& symmetries, Json& info) {
+  const Eigen::Vector3d& centre = symmetries.centre;
+  for (const Eigen::Vector3d& axis : symmetries.axes) {
+    const Eigen::Vector3d offset = centre * kMillimetresPerMetre;
+    info["symmetries_continuous"].push_back({{"axis", {axis.x(), axis.y(), axis.z()}},
+                                             {"offset", {offset.x(), offset.y(), offset.z()}}});
+  }
+  for (const Eigen::Matrix3d& rotation : symmetries.rotations) {
+    const Eigen::Vector3d shift = (centre - rotation * centre) * kMillimetresPerMetre;
+    Json matrix = Json::array();
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) matrix.push_back(rotation(row, column));
+      matrix.push_back(shift[row]);
+    }
+    for (const double last : {0.0, 0.0, 0.0, 1.0}) matrix.push_back(last);
+    info["symmetries_discrete"].push_back(std::move(matrix));
+  }
+}
+
 Json info_of(const Mesh& mesh) {
+  constexpr double kSameShape = 0.02;  // of the diameter
+  const double diameter_m = mesh_diameter(mesh);
   const BoundingBox box = bounding_box(mesh);
   const Eigen::Vector3d low = box.low * kMillimetresPerMetre;
   const Eigen::Vector3d size = box.size() * kMillimetresPerMetre;
-  return {{"diameter", mesh_diameter(mesh) * kMillimetresPerMetre},
-          {"min_x", low.x()},
-          {"min_y", low.y()},
-          {"min_z", low.z()},
-          {"size_x", size.x()},
-          {"size_y", size.y()},
-          {"size_z", size.z()}};
+  Json info = {{"diameter", diameter_m * kMillimetresPerMetre},
+               {"min_x", low.x()},
+               {"min_y", low.y()},
+               {"min_z", low.z()},
+               {"size_x", size.x()},
+               {"size_y", size.y()},
+               {"size_z", size.z()}};
+  add_symmetries(find_symmetries(mesh, kSameShape * diameter_m), info);
+  return info;
 }
 
 }  // namespace

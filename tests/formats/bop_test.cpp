@@ -1,5 +1,6 @@
 #include "formats/bop.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -118,6 +119,37 @@ TEST(BopModels, HaveANormalOfLengthOneWhereATriangleHasNoArea) {
     std::array<float, 6> numbers{};
     std::memcpy(numbers.data(), vertices + 24 * i, sizeof numbers);
     EXPECT_EQ(std::abs(numbers[5]), 1.0F) << "vertex " << i;
+  }
+}
+
+TEST(BopModels, SayAfterWhichRotationsAModelLooksTheSame) {
+  auto asset = std::make_shared<Asset>();
+  asset->name = "cube";
+  asset->mesh = cube();
+  for (auto& position : asset->mesh.positions) position[0] += 3.0F;  // far from its origin
+  CommonPart common;
+  add_bop_models({{asset, {}}}, common);
+  const Json info = parse_json(common.files.at("models/models_info.json"), "info")->at("1");
+  EXPECT_FALSE(info.contains("symmetries_continuous"));
+  const auto matrices = info.at("symmetries_discrete").get<std::vector<std::vector<double>>>();
+  ASSERT_EQ(matrices.size(), 23U);
+  for (const std::vector<double>& matrix : matrices) {
+    ASSERT_EQ(matrix.size(), 16U);
+    for (const std::array<float, 3>& vertex : asset->mesh.positions) {
+      // Each vertex comes to lie on a vertex, in millimetres.
+      std::array<double, 3> turned{};
+      for (std::size_t row = 0; row < 3; ++row) {
+        turned[row] = matrix[4 * row + 3];
+        for (std::size_t i = 0; i < 3; ++i) turned[row] += 1000.0 * matrix[4 * row + i] * vertex[i];
+      }
+      const bool on_vertex = std::any_of(asset->mesh.positions.begin(), asset->mesh.positions.end(),
+                                         [&](const auto& other) {
+                                           return std::abs(turned[0] - 1000.0 * other[0]) < 0.01 &&
+                                                  std::abs(turned[1] - 1000.0 * other[1]) < 0.01 &&
+                                                  std::abs(turned[2] - 1000.0 * other[2]) < 0.01;
+                                         });
+      EXPECT_TRUE(on_vertex) << turned[0] << " " << turned[1] << " " << turned[2];
+    }
   }
 }
 
