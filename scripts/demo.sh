@@ -20,9 +20,11 @@ fi
 $seedframe export "$campaign" --format coco --format coco-polygon --format yolo-detect \
   --format yolo-segment --split train=0.8,val=0.2
 $seedframe status "$campaign"
+$seedframe show "$campaign" --sheet 4x4 --layers image,image+instances -o "$campaign.jpg"
 cat <<END
 
 Look at
+  $campaign.jpg                                eight frames, and below each its masks
   $campaign/frames/000/000000/image.png            the first image; beside it its masks, labels and frame spec
   $campaign/exports/coco/annotations/              COCO, one file a split
   $campaign/exports/yolo-segment/data.yaml         YOLO, ready for a trainer

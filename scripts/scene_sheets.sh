@@ -1,6 +1,6 @@
 #!/bin/sh
 # Contact sheets of the papers' scenes, into results/scenes: a few frames of each config, smaller and with fewer samples
-# than the configs ask for. Takes about 10 minutes on two idle cores. Needs Debian's python3-pil.
+# than the configs ask for. Takes about 10 minutes on two idle cores.
 #
 #   scripts/scene_sheets.sh [NAME…]    NAME: only these sheets, such as robocup_fig2
 set -eu
@@ -17,7 +17,7 @@ sheet() {
   shift 3
   case $wanted in "  " | *" $name "*) ;; *) return ;; esac
   "$seedframe" submit "configs/$config.yaml" -o "$work/$name" --quiet "$@"
-  /usr/bin/python3 scripts/contact_sheet.py "$work/$name" "results/scenes/$name.jpg" --columns "$columns"
+  "$seedframe" show "$work/$name" all --sheet "$columns" --layers image --plain -o "results/scenes/$name.jpg" --overwrite
 }
 quarter="--set render.width=320 --set render.height=240"
 

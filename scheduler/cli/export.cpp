@@ -175,17 +175,6 @@ int verify_all(const Dataset& dataset, const std::vector<std::filesystem::path>&
   return code;
 }
 
-/// As the campaign has them; one that was made before it kept them, from its config.
-Result<KeptInputs> inputs_for(const Campaign& campaign, const ExportArguments& arguments) {
-  Result<std::optional<KeptInputs>> kept = read_kept_inputs(campaign.files);
-  if (!kept) return forward_error(kept);
-  if (*kept) return std::move(**kept);
-  const Result<PreparedCampaign> prepared =
-      prepare_again(campaign, seedframe_home(), arguments.allowed);
-  if (!prepared) return forward_error(prepared);
-  return inputs_of(*prepared);
-}
-
 int export_campaign(const ExportArguments& arguments) {
   const auto formats = find_formats(arguments.formats);
   if (!formats) return report(formats.error());
@@ -197,7 +186,7 @@ int export_campaign(const ExportArguments& arguments) {
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
   if (options->output.empty()) options->output = campaign->files.exports();
-  Result<KeptInputs> inputs = inputs_for(*campaign, arguments);
+  Result<KeptInputs> inputs = inputs_of(*campaign, seedframe_home(), arguments.allowed);
   if (!inputs) return report(inputs.error());
   const Result<CampaignDataset> dataset = campaign_dataset(*campaign, std::move(*inputs));
   if (!dataset) return report(dataset.error());

@@ -122,4 +122,14 @@ Result<std::optional<KeptInputs>> read_kept_inputs(const CampaignFiles& files) {
   }
 }
 
+Result<KeptInputs> inputs_of(const Campaign& campaign, const std::filesystem::path& home,
+                             const std::vector<std::string>& allowed) {
+  Result<std::optional<KeptInputs>> kept = read_kept_inputs(campaign.files);
+  if (!kept) return forward_error(kept);
+  if (*kept) return std::move(**kept);
+  const Result<PreparedCampaign> prepared = prepare_again(campaign, home, allowed);
+  if (!prepared) return forward_error(prepared);
+  return inputs_of(*prepared);
+}
+
 }  // namespace seedframe

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "assets/offered_asset.h"
 #include "base/error.h"
+#include "campaign/campaign.h"
 #include "frames/campaign_files.h"
 #include "scene/prepared_campaign.h"
 
@@ -31,5 +33,9 @@ Status keep_inputs(const CampaignFiles& files, const KeptInputs& inputs);
 
 /// Nothing where none were kept. Files that are not as they were written are an error (kCorrupt).
 Result<std::optional<KeptInputs>> read_kept_inputs(const CampaignFiles& files);
+
+/// Those; or of a campaign that was made before any were kept, from its config (prepare_again).
+Result<KeptInputs> inputs_of(const Campaign& campaign, const std::filesystem::path& home,
+                             const std::vector<std::string>& allowed);
 
 }  // namespace seedframe

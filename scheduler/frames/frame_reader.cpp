@@ -117,6 +117,19 @@ Status check_file(const CommittedFrame& frame, const std::string& name, const Ma
   return check_hash(frame, name, manifest, *sha256);
 }
 
+Result<Image<float>> read_normals(const fs::path& path) {
+  Image<float> normal;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const auto plane = read_exr_channel(path, std::string(1, "XYZ"[channel]));
+    if (!plane) return forward_error(plane);
+    if (channel == 0) normal = Image<float>(plane->width, plane->height, 3);
+    for (std::size_t i = 0; i < plane->values.size(); ++i) {
+      normal.values[3 * i + channel] = plane->values[i];
+    }
+  }
+  return normal;
+}
+
 }  // namespace
 
 Result<FrameSpec> stored_spec(const std::filesystem::path& folder) {
@@ -155,6 +168,11 @@ Result<FrameReader> FrameReader::open(const CommittedFrame& frame, const FramePa
     const Status depth = check_file(frame, frame_files::kDepth, reader.manifest_);
     if (!depth) return forward_error(depth);
   }
+  reader.parts_.normal = parts.normal && reader.manifest_.files.contains(frame_files::kNormal);
+  if (reader.parts_.normal) {
+    const Status normal = check_file(frame, frame_files::kNormal, reader.manifest_);
+    if (!normal) return forward_error(normal);
+  }
   return reader;
 }
 
@@ -188,6 +206,11 @@ Result<LoadedFrame> FrameReader::load(const std::vector<std::string>& categories
     auto depth = read_exr_channel(frame_.folder / frame_files::kDepth, "Z");
     if (!depth) return in_frame(frame_, depth);
     loaded.depth = std::move(*depth);
+  }
+  if (parts_.normal) {
+    auto normal = read_normals(frame_.folder / frame_files::kNormal);
+    if (!normal) return in_frame(frame_, normal);
+    loaded.normal = std::move(*normal);
   }
   return loaded;
 }

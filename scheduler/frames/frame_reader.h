@@ -30,6 +30,7 @@ struct FrameParts {
   bool image_file = false;    ///< the picture, as it is
   bool image_pixels = false;  ///< the same, decoded
   bool depth = false;
+  bool normal = false;  ///< if the frame has them
 };
 
 struct LoadedFrame {
@@ -39,6 +40,7 @@ struct LoadedFrame {
   std::optional<Image<float>> depth;         ///< planar, metres
   std::string image_file = "image.png";      ///< of the picture, in the frame's folder
   std::string image_sha256 = {};             ///< of that file
+  std::optional<Image<float>> normal = {};   ///< x, y, z in the camera's frame
 };
 
 /// The files of a frame, found to be those of its manifest.

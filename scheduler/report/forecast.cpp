@@ -7,20 +7,13 @@
 #include <numeric>
 #include <utility>
 
+#include "base/spread.h"
 #include "campaign/campaign.h"
 #include "campaign/campaign_runner.h"
 #include "campaign/disk_space.h"
 
 namespace seedframe {
 namespace {
-
-/// From the middle of each of as many equal parts; fewer where there are fewer frames.
-std::vector<std::int64_t> spread_over(std::int64_t frames, std::int64_t count) {
-  count = std::min(count, frames);
-  std::vector<std::int64_t> chosen;
-  for (std::int64_t i = 0; i < count; ++i) chosen.push_back((2 * i + 1) * frames / (2 * count));
-  return chosen;
-}
 
 /// In the order in which they began.
 Result<std::vector<AttemptRow>> attempts_of(const JobStore& store,

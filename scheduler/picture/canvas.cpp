@@ -1,0 +1,219 @@
+#include "picture/canvas.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <numbers>
+
+#include <cairo.h>
+
+#include "base/message_text.h"
+#include "base/utf8.h"
+
+namespace seedframe {
+namespace {
+
+/// One line that cairo can show: UTF-8 without control characters.
+std::string shown(const std::string& text) {
+  std::string line = printable(as_utf8(text));
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::string word;
+  for (const char letter : shown(text) + " ") {
+    if (letter != ' ') {
+      word += letter;
+    } else if (!word.empty()) {
+      words.push_back(std::move(word));
+      word.clear();
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+struct Canvas::Drawing {
+  Drawing(int width, int height)
+      : surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)),
+        cairo(cairo_create(surface)) {
+    if (cairo_status(cairo) != CAIRO_STATUS_SUCCESS) {
+      cairo_destroy(cairo);
+      cairo_surface_destroy(surface);
+      throw std::bad_alloc();
+    }
+  }
+  ~Drawing() {
+    cairo_destroy(cairo);
+    cairo_surface_destroy(surface);
+  }
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
+
+  void set_color(const DisplayColor& color, double opacity) {
+    cairo_set_source_rgba(cairo, color[0], color[1], color[2], opacity);
+  }
+
+  /// Paints the path that is there.
+  void paint(const LineStyle& style) {
+    set_color(style.color, style.opacity);
+    if (style.is_filled) {
+      cairo_fill(cairo);
+      return;
+    }
+    const std::array<double, 2> dashes = {3.0 * style.width, 2.0 * style.width};
+    cairo_set_dash(cairo, dashes.data(), style.dashed ? 2 : 0, 0.0);
+    cairo_set_line_width(cairo, style.width);
+    cairo_stroke(cairo);
+  }
+
+  void set_font(const TextStyle& style) {
+    cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                           style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cairo, style.size);
+  }
+
+  double width_of(const std::string& line) {
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo, line.c_str(), &extents);
+    return extents.x_advance;
+  }
+
+  cairo_surface_t* surface;
+  cairo_t* cairo;
+};
+
+Canvas::Canvas(int width, int height, const DisplayColor& background)
+    : width_(width), height_(height), drawing_(std::make_unique<Drawing>(width, height)) {
+  // What a desktop's settings say of fonts is not asked for.
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_SLIGHT);
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(drawing_->cairo, options);
+  cairo_font_options_destroy(options);
+  fill({0.0, 0.0, static_cast<double>(width), static_cast<double>(height)}, background);
+}
+
+Canvas::~Canvas() = default;
+
+void Canvas::put(const Image<std::uint8_t>& image, int x, int y) {
+  cairo_surface_flush(drawing_->surface);
+  unsigned char* data = cairo_image_surface_get_data(drawing_->surface);
+  const int stride = cairo_image_surface_get_stride(drawing_->surface);
+  const int first = std::max(0, -x), end = std::min(image.width, width_ - x);
+  for (int row = std::max(0, -y); row < std::min(image.height, height_ - y); ++row) {
+    unsigned char* line = data + static_cast<std::ptrdiff_t>(row + y) * stride;
+    for (int column = first; column < end; ++column) {
+      const std::uint8_t* rgb = &image.at(row, column);
+      const std::uint32_t pixel =
+          (std::uint32_t{rgb[0]} << 16U) | (std::uint32_t{rgb[1]} << 8U) | std::uint32_t{rgb[2]};
+      std::memcpy(line + 4 * static_cast<std::ptrdiff_t>(column + x), &pixel, sizeof pixel);
+    }
+  }
+  cairo_surface_mark_dirty(drawing_->surface);
+}
+
+void Canvas::fill(const CanvasBox& box, const DisplayColor& color, double opacity) {
+  cairo_rectangle(drawing_->cairo, box.x, box.y, box.width, box.height);
+  drawing_->paint({.color = color, .opacity = opacity, .is_filled = true});
+}
+
+void Canvas::outline(const CanvasBox& box, const LineStyle& style) {
+  const double inside = std::min({style.width, box.width, box.height});
+  cairo_rectangle(drawing_->cairo, box.x + inside / 2.0, box.y + inside / 2.0, box.width - inside,
+                  box.height - inside);
+  drawing_->paint(style);
+}
+
+void Canvas::rings(const std::vector<std::vector<CanvasPoint>>& rings, const LineStyle& style) {
+  for (const std::vector<CanvasPoint>& ring : rings) {
+    cairo_new_sub_path(drawing_->cairo);
+    for (const CanvasPoint& point : ring) cairo_line_to(drawing_->cairo, point[0], point[1]);
+    cairo_close_path(drawing_->cairo);
+  }
+  drawing_->paint(style);
+}
+
+void Canvas::line(const CanvasPoint& from, const CanvasPoint& to, const LineStyle& style) {
+  cairo_move_to(drawing_->cairo, from[0], from[1]);
+  cairo_line_to(drawing_->cairo, to[0], to[1]);
+  drawing_->paint(style);
+}
+
+void Canvas::disc(const CanvasPoint& centre, double radius, const LineStyle& style) {
+  cairo_new_sub_path(drawing_->cairo);
+  cairo_arc(drawing_->cairo, centre[0], centre[1], radius, 0.0, 2.0 * std::numbers::pi);
+  drawing_->paint(style);
+}
+
+double Canvas::width_of(const std::string& text, const TextStyle& style) {
+  drawing_->set_font(style);
+  return drawing_->width_of(shown(text));
+}
+
+std::string Canvas::fitted(const std::string& text, double width, const TextStyle& style) {
+  drawing_->set_font(style);
+  std::string line = shown(text);
+  if (drawing_->width_of(line) <= width) return line;
+  // Characters that end before the bound, by halving.
+  std::vector<std::size_t> ends = {0};
+  while (ends.back() < line.size()) {
+    ends.push_back(ends.back() + std::max<std::size_t>(1, utf8_length(line, ends.back())));
+  }
+  std::size_t fits = 0, too_many = ends.size();
+  while (fits + 1 < too_many) {
+    const std::size_t middle = (fits + too_many) / 2;
+    const bool has_room = drawing_->width_of(line.substr(0, ends[middle]) + "…") <= width;
+    (has_room ? fits : too_many) = middle;
+  }
+  return line.substr(0, ends[fits]) + "…";
+}
+
+std::vector<std::string> Canvas::wrapped(const std::string& text, double width, int most_lines,
+                                         const TextStyle& style) {
+  drawing_->set_font(style);
+  std::vector<std::string> lines;
+  for (const std::string& word : words_of(text)) {
+    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
+    const bool is_last = static_cast<int>(lines.size()) == most_lines;
+    if (!lines.empty() && (is_last || drawing_->width_of(longer) <= width)) {
+      lines.back() = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  for (std::string& line : lines) line = fitted(line, width, style);
+  return lines;
+}
+
+void Canvas::text(const std::string& text, const CanvasPoint& at, const TextStyle& style) {
+  drawing_->set_font(style);
+  drawing_->set_color(style.color, 1.0);
+  cairo_move_to(drawing_->cairo, at[0], at[1]);
+  cairo_show_text(drawing_->cairo, shown(text).c_str());
+}
+
+Image<std::uint8_t> Canvas::image() const {
+  cairo_surface_flush(drawing_->surface);
+  const unsigned char* data = cairo_image_surface_get_data(drawing_->surface);
+  const int stride = cairo_image_surface_get_stride(drawing_->surface);
+  Image<std::uint8_t> image(width_, height_, 3);
+  for (int row = 0; row < height_; ++row) {
+    const unsigned char* line = data + static_cast<std::ptrdiff_t>(row) * stride;
+    for (int column = 0; column < width_; ++column) {
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, line + 4 * static_cast<std::ptrdiff_t>(column), sizeof pixel);
+      std::uint8_t* rgb = &image.at(row, column);
+      rgb[0] = static_cast<std::uint8_t>(pixel >> 16U);
+      rgb[1] = static_cast<std::uint8_t>(pixel >> 8U);
+      rgb[2] = static_cast<std::uint8_t>(pixel);
+    }
+  }
+  return image;
+}
+
+}  // namespace seedframe
