@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
   seedframe::add_status_verb(app, on_selected);
   seedframe::add_explain_verb(app, with_home);
   seedframe::add_render_verb(app, with_home);
+  seedframe::add_preview_verb(app, with_home);
   seedframe::add_show_verb(app, with_home);
   seedframe::add_verify_error_verb(app, with_home);
   seedframe::add_export_verb(app, with_home);

@@ -17,6 +17,7 @@ void add_resume_verb(CLI::App& app, const OnSelected& on_selected);
 void add_status_verb(CLI::App& app, const OnSelected& on_selected);
 void add_render_verb(CLI::App& app, const OnSelected& on_selected);
 void add_show_verb(CLI::App& app, const OnSelected& on_selected);
+void add_preview_verb(CLI::App& app, const OnSelected& on_selected);
 void add_verify_error_verb(CLI::App& app, const OnSelected& on_selected);
 void add_explain_verb(CLI::App& app, const OnSelected& on_selected);
 void add_export_verb(CLI::App& app, const OnSelected& on_selected);

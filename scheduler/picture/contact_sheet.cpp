@@ -34,7 +34,8 @@ class Layout {
     const int count = static_cast<int>(sheet.tiles.size());
     columns_ = std::clamp(sheet.columns, 1, count);
     rows_ = (count + columns_ - 1) / columns_;
-    bool has_words = !sheet.title.empty() || !sheet.legend.empty();
+    const bool has_rows_below = !sheet.legend.empty() || !sheet.remarks.empty();
+    bool has_words = !sheet.title.empty() || has_rows_below;
     row_tops_.assign(static_cast<std::size_t>(rows_), 0);
     captions_.assign(static_cast<std::size_t>(rows_), 0);
     for (int i = 0; i < count; ++i) {
@@ -51,7 +52,7 @@ class Layout {
       row_tops_[row] = y;
       y += tile_height_ + captions_[row] + kGap;
     }
-    legend_top_ = y - kGap + (sheet.legend.empty() ? 0 : kGap);
+    legend_top_ = y - kGap + (has_rows_below ? kGap : 0);
     width_ = 2.0 * margin_ + columns_ * (tile_width_ + 1.0 * kGap) - kGap;
   }
 
@@ -90,6 +91,18 @@ std::vector<CanvasPoint> places_of(const std::vector<LegendEntry>& legend, doubl
     at[0] += room;
   }
   return places;
+}
+
+std::vector<std::string> lines_of(const std::vector<std::string>& remarks, double width,
+                                  Canvas& ruler) {
+  constexpr int kMostLines = 4;  // of each
+  std::vector<std::string> lines;
+  for (const std::string& remark : remarks) {
+    for (std::string& line : ruler.wrapped(remark, width, kMostLines, kLegendText)) {
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
 }
 
 void draw_sign(const LegendEntry& entry, double x, double y, Canvas& canvas) {
@@ -210,7 +223,9 @@ Result<Image<std::uint8_t>> draw_sheet(const ContactSheet& sheet) {
   const std::vector<CanvasPoint> places = places_of(sheet.legend, layout.inner_width(), ruler);
   const int legend_rows =
       places.empty() ? 0 : 1 + static_cast<int>(std::lround(places.back()[1] / kLegendRow));
-  const double width = layout.width(), height = layout.height(legend_rows);
+  const std::vector<std::string> remarks = lines_of(sheet.remarks, layout.inner_width(), ruler);
+  const double width = layout.width();
+  const double height = layout.height(legend_rows + static_cast<int>(remarks.size()));
   if (width > kMostSide || height > kMostSide || width * height > kMostPixels) {
     return fail(
         ErrorKind::kInput,
@@ -228,6 +243,11 @@ Result<Image<std::uint8_t>> draw_sheet(const ContactSheet& sheet) {
     draw_sign(sheet.legend[i], x, y + 2.0, canvas);
     canvas.text(canvas.fitted(sheet.legend[i].text, layout.inner_width() - kSign, kLegendText),
                 {x + kSign, y + 12.5}, kLegendText);
+  }
+  double base = layout.legend_top() + kLegendRow * legend_rows + 12.5;
+  for (const std::string& line : remarks) {
+    canvas.text(line, {double(layout.margin()), base}, kLegendText);
+    base += kLegendRow;
   }
   return canvas.image();
 }

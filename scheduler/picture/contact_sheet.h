@@ -33,6 +33,7 @@ struct ContactSheet {
   int columns = 1;
   std::vector<SheetTile> tiles;  ///< row by row
   std::vector<LegendEntry> legend;
+  std::vector<std::string> remarks;  ///< below all, each as many lines as it needs
 };
 
 /// What legends must explain, of all labels of a sheet.

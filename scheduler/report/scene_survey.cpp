@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "spec/scaled_view.h"
 #include "twin/twin.h"
 
 namespace seedframe {
@@ -55,18 +56,11 @@ std::string section_of(const std::string& instance) {
 
 /// The same view in fewer pixels; returns how many of the whole picture each stands for.
 double shrink(FrameSpec& spec) {
-  RenderSettings& render = spec.render;
+  const RenderSettings& render = spec.render;
   const double whole = static_cast<double>(render.width) * render.height;
-  const double scale =
-      std::min(1.0, static_cast<double>(kLargestSide) / std::max(render.width, render.height));
-  render.width = std::max(1, static_cast<int>(std::lround(render.width * scale)));
-  render.height = std::max(1, static_cast<int>(std::lround(render.height * scale)));
-  render.region.reset();
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    spec.camera.focal_px[axis] *= scale;
-    spec.camera.center_px[axis] = (spec.camera.center_px[axis] + 0.5) * scale - 0.5;
-  }
-  return whole / (static_cast<double>(render.width) * render.height);
+  spec = scaled_view(std::move(spec), std::min(1.0, static_cast<double>(kLargestSide) /
+                                                        std::max(render.width, render.height)));
+  return whole / (static_cast<double>(spec.render.width) * spec.render.height);
 }
 
 std::string metres(const Eigen::Vector3d& size) {

@@ -14,6 +14,7 @@ SEEDFRAME_FAKE in the environment is a JSON object; all keys are optional:
     "chatty_log_bytes": 1000            printed for each frame
     "delay_s": 0.1                      for each frame
     "frame_s": 0.017                    that a frame takes in all, if drawing it takes no longer
+    "no_denoiser": true                 frames that are to be denoised fail
     "starts_log": "path"                gets one line, the process id, for each start
     "kernel": "avx"                     that it says it has, and "kernel_from": "path" the file that says it
     "depends_on": ["threads", "locale"] what a pixel of every frame depends on (see DEPENDENCIES)
@@ -115,6 +116,8 @@ def answer(request, wishes, rendered):
     fault = next((f for f in FAULTS if meets(wishes, f, frame, attempt)), None)
     print("." * wishes.get("chatty_log_bytes", 0), flush=True)
     time.sleep(wishes.get("delay_s", 0))
+    if wishes.get("no_denoiser") and request["spec"]["render"].get("denoise", "off") != "off":
+        return {"type": "failed", "frame": frame, "attempt": attempt, "error": "this Blender has no Open Image Denoise"}
     if fault == "crash":
         print(f"fake: frame {frame} is too much", file=sys.stderr, flush=True)
         os.kill(os.getpid(), signal.SIGSEGV)
