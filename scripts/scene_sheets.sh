@@ -11,20 +11,21 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p results/scenes
 wanted=" $* "
 
-# sheet NAME COLUMNS CONFIG ARGUMENTS…: submits and puts all frames into one picture.
+# sheet NAME COLUMNS WIDTH CONFIG ARGUMENTS…: submits and puts all frames, of that width, into one picture.
 sheet() {
-  name=$1 columns=$2 config=$3
-  shift 3
+  name=$1 columns=$2 width=$3 config=$4
+  shift 4
   case $wanted in "  " | *" $name "*) ;; *) return ;; esac
   "$seedframe" submit "configs/$config.yaml" -o "$work/$name" --quiet "$@"
-  "$seedframe" show "$work/$name" all --sheet "$columns" --layers image --plain -o "results/scenes/$name.jpg" --overwrite
+  "$seedframe" show "$work/$name" all --sheet "$columns" --tile-width "$width" --layers image --plain \
+    -o "results/scenes/$name.jpg" --overwrite
 }
 quarter="--set render.width=320 --set render.height=240"
 
 # Figure 2 of paper 1: a row for each tint; in it for each intensity three field colours.
-sheet robocup_fig2 6 robocup_fig2 $quarter --set render.samples=48
-sheet robocup_spl 4 robocup_spl $quarter --set render.samples=48 --set scenes=6 --set frames_per_scene=2
-sheet parts_study 3 parts_study $quarter --set render.samples=48 --set scenes=3 --set frames_per_scene=2
+sheet robocup_fig2 6 320 robocup_fig2 $quarter --set render.samples=48
+sheet robocup_spl 4 320 robocup_spl $quarter --set render.samples=48 --set scenes=6 --set frames_per_scene=2
+sheet parts_study 3 320 parts_study $quarter --set render.samples=48 --set scenes=3 --set frames_per_scene=2
 # Paper 3: 8 attributes, five classes; the initial distributions above, the target ones below.
-sheet tyol_initial 8 tyol_multi_8_initial --set scenes=16
-sheet tyol_target 8 tyol_multi_8_target --set scenes=16
+sheet tyol_initial 8 128 tyol_multi_8_initial --set scenes=16
+sheet tyol_target 8 128 tyol_multi_8_target --set scenes=16

@@ -95,10 +95,7 @@ class SheetMaker {
     const CommittedFrame committed{frame, static_cast<int>((*row)->scene),
                                    campaign_.files.frame(frame), (*row)->frame_id};
     const Result<FrameContent> content = read_content(committed, dataset_, all_layers_, expand_);
-    if (content) {
-      draw(frame, *content);
-      return {};
-    }
+    if (content) return draw(frame, *content);
     if (content.error().kind != ErrorKind::kCorrupt) return forward_error(content);
     out_.any_corrupt = true;
     const std::string why = without_frame(content.error().message, frame);
@@ -145,10 +142,19 @@ class SheetMaker {
     }
   }
 
-  void draw(std::int64_t frame, const FrameContent& content) {
+  Status draw(std::int64_t frame, const FrameContent& content) {
     const TileSize size = tile_size(content.instance_ids.width, content.instance_ids.height,
                                     most_width(), least_width());
     if (!size_) size_ = size;
+    const std::size_t tiles = wish_.frames.size() * wish_.tiles.size();
+    const double pixels = static_cast<double>(tiles) * size.width * size.height;
+    if (pixels > kMostSheetPixels) {
+      return fail(
+          ErrorKind::kInput,
+          "{} tiles of {} × {} pixels are more than the {:.0f} million pixels that a picture "
+          "may have: show fewer frames, or smaller ones (--tile-width)",
+          tiles, size.width, size.height, kMostSheetPixels / 1e6);
+    }
     frame_width_ = content.instance_ids.width;
     frame_height_ = content.instance_ids.height;
     objects_ = labelled_in(content.labels);
@@ -159,12 +165,12 @@ class SheetMaker {
       open.tile.pixels = std::move(picture.pixels);
       open.tile.caption = caption(frame, i);
       open.tile.note = std::move(picture.note);
-      if (i == 0 && !is_single_) {
-        open.tile.note =
-            counted(objects_, "object") + (open.tile.note.empty() ? "" : " · " + open.tile.note);
+      if (i == 0 && !is_single_ && open.tile.note.empty()) {
+        open.tile.note = counted(objects_, "object");
       }
       tiles_.push_back(std::move(open));
     }
+    return {};
   }
 
   std::string caption(std::int64_t frame, std::size_t tile) const {

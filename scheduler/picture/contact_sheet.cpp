@@ -191,7 +191,7 @@ std::vector<LegendEntry> SeenLabels::legend_for(const std::vector<LayerSet>& til
     legend.push_back({Sign::kRing, kSheetInk, "hidden"});
   }
   if (layers.has(Layer::kDisagreement)) {
-    legend.push_back({Sign::kSwatch, kInsideColor, "differs from the twin inside"});
+    legend.push_back({Sign::kSwatch, kInsideColor, "differs from the twin inside of objects"});
     legend.push_back({Sign::kSwatch, kEdgeColor, "at an edge"});
     legend.push_back({Sign::kSwatch, kCoincidentColor, "where surfaces coincide"});
   }
@@ -216,7 +216,7 @@ int columns_for(int count, int tile_width, int tile_height) {
 }
 
 Result<Image<std::uint8_t>> draw_sheet(const ContactSheet& sheet) {
-  constexpr double kMostSide = 32'767.0, kMostPixels = 2.5e8;
+  constexpr double kMostSide = 32'767.0;
   if (sheet.tiles.empty()) return fail(ErrorKind::kInput, "there is no frame to show");
   const Layout layout(sheet);
   Canvas ruler(1, 1, kPaper);
@@ -226,12 +226,12 @@ Result<Image<std::uint8_t>> draw_sheet(const ContactSheet& sheet) {
   const std::vector<std::string> remarks = lines_of(sheet.remarks, layout.inner_width(), ruler);
   const double width = layout.width();
   const double height = layout.height(legend_rows + static_cast<int>(remarks.size()));
-  if (width > kMostSide || height > kMostSide || width * height > kMostPixels) {
+  if (width > kMostSide || height > kMostSide || width * height > kMostSheetPixels) {
     return fail(
         ErrorKind::kInput,
         "the picture would have {:.0f} × {:.0f} pixels, at most {:.0f} both ways and {:.0f} "
         "million together are drawn: show fewer frames, or smaller ones (--tile-width)",
-        width, height, kMostSide, kMostPixels / 1e6);
+        width, height, kMostSide, kMostSheetPixels / 1e6);
   }
   Canvas canvas(static_cast<int>(width), static_cast<int>(height), kPaper);
   if (!sheet.title.empty()) draw_title(sheet, layout, canvas);

@@ -52,7 +52,10 @@ class SeenLabels {
 /// Columns for `count` tiles, so that a sheet is about as wide as a screen and its last row full.
 int columns_for(int count, int tile_width, int tile_height);
 
-/// RGB. kInput error: no tiles, or more pixels than a picture may have (32,767 both ways).
+inline constexpr double kMostSheetPixels = 2.5e8;
+
+/// RGB. kInput error: no tiles, or more pixels than a picture may have
+/// (kMostSheetPixels, and 32,767 both ways).
 Result<Image<std::uint8_t>> draw_sheet(const ContactSheet& sheet);
 
 }  // namespace seedframe

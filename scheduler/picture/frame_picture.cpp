@@ -30,18 +30,18 @@ std::string note_of(const DisagreementCount& count) {
 
 void add(std::string& note, const std::string& more) { note += (note.empty() ? "" : " · ") + more; }
 
-/// A mark around each pixel that differs, which alone would hardly be seen; of so many that they
+/// A ring around each pixel that differs, which alone would hardly be seen; of so many that they
 /// would cover all, none.
 void mark_disagreement(const Image<std::uint8_t>& kinds, double scale, Canvas& canvas) {
   constexpr std::int64_t kMost = 400;
   const DisagreementCount count = count_disagreement(kinds);
-  if (count.inside_px > kMost) return;
+  if (count.inside_px + count.edge_px + count.coincident_px > kMost) return;
   const double radius = std::max(4.0, scale);
   for (int row = 0; row < kinds.height; ++row) {
     for (int column = 0; column < kinds.width; ++column) {
-      if (kinds.at(row, column) < 255) continue;
+      if (kinds.at(row, column) == 0) continue;
       canvas.disc({scale * (column + 0.5), scale * (row + 0.5)}, radius,
-                  {.color = kInsideColor, .width = 1.0});
+                  {.color = disagreement_color(kinds.at(row, column)), .width = 1.5});
     }
   }
 }

@@ -36,8 +36,10 @@ Rings rings_of(const Mask& mask, int x, int y, double scale) {
 }
 
 Rings silhouette_rings(const AmodalLabel& amodal, double scale) {
+  constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;  // whatever a file says
+  if (amodal.box.area() <= 0 || amodal.box.area() > kMostPixels) return {};
   const auto rle = rle_from_string(amodal.rle, amodal.box.width, amodal.box.height);
-  if (!rle || amodal.box.area() == 0) return {};
+  if (!rle) return {};
   Image<std::uint16_t> mask(amodal.box.width, amodal.box.height);
   for_each_stretch(*rle, [&](int column, int first, int end) {
     for (int row = first; row < end; ++row) mask.at(row, column) = 1;

@@ -94,14 +94,17 @@ std::map<int, DisplayColor> semantic_colors(const FrameLabels& labels) {
 void paint_disagreement(const Image<std::uint8_t>& kinds, Image<std::uint8_t>& image) {
   for (std::size_t i = 0; i < kinds.values.size(); ++i) {
     if (kinds.values[i] == 0) continue;
-    const Rgb8 color = color_bytes(kinds.values[i] == kDiffersInside   ? kInsideColor
-                                   : kinds.values[i] == kDiffersAtEdge ? kEdgeColor
-                                                                       : kCoincidentColor);
+    const Rgb8 color = color_bytes(disagreement_color(kinds.values[i]));
     std::copy(color.begin(), color.end(), &image.values[3 * i]);
   }
 }
 
 }  // namespace
+
+DisplayColor disagreement_color(std::uint8_t kind) {
+  if (kind == kDiffersInside) return kInsideColor;
+  return kind == kDiffersAtEdge ? kEdgeColor : kCoincidentColor;
+}
 
 std::map<int, DisplayColor> instance_colors(const FrameLabels& labels) {
   std::map<int, DisplayColor> colors;

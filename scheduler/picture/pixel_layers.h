@@ -23,6 +23,9 @@ inline constexpr DisplayColor kInsideColor = {1.00, 0.20, 0.45};
 inline constexpr DisplayColor kEdgeColor = {0.95, 0.70, 0.10};
 inline constexpr DisplayColor kCoincidentColor = {0.35, 0.75, 1.00};
 
+/// Of a pixel as difference_image has it, not 0.
+DisplayColor disagreement_color(std::uint8_t kind);
+
 /// The colour of each instance with an id, by that: shades of its class's colour, or that itself.
 std::map<int, DisplayColor> instance_colors(const FrameLabels& labels);
 

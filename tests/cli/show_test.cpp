@@ -164,6 +164,7 @@ TEST_F(ShowTest, RefusesWhatItCannotShow) {
       {{"c", "--sheet", "6y4"}, "such as 6x4"},
       {{"c", "--sheet", "0x4"}, "such as 6x4"},
       {{"c", "--sheet", "3x3", "--layers", "boxes,depth"}, "a multiple of 2"},
+      {{"c", "--tile-width", "8192"}, "show fewer frames, or smaller ones (--tile-width)"},
       {{"c", "-o", "c.bmp"}, ".png or .jpg"},
       {{"c", "-o", "gears.yaml"}, ".png or .jpg"}};
   for (const auto& [arguments, words] : cases) {
