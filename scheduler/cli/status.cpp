@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include "cli/verb.h"
 #include "console/exit_code.h"
@@ -18,61 +19,91 @@ struct StatusArguments {
   bool json = false;
 };
 
-std::string twin_text(const TwinSummary& twin) {
-  return fmt::format(
+/// Lines that no terminal of 80 columns breaks in the middle of a word; elsewhere as they are, for
+/// whoever reads them with a program.
+template <class... Arguments>
+void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  constexpr std::size_t kColumns = 80;
+  const std::string line = fmt::format(format, std::forward<Arguments>(arguments)...);
+  say("{}\n", ::isatty(STDOUT_FILENO) != 0 ? wrapped(line, kColumns) : line);
+}
+
+void tell_twin(const TwinSummary& twin) {
+  tell(
       "{} frames were compared with their twins: of {} pixels {} differ inside and {} at edges, in "
-      "{} frames\n",
+      "{} frames",
       twin.frames, twin.sum.pixels, twin.sum.inside_px, twin.sum.edge_px, twin.frames_differing);
 }
 
-void print_timings(const AttemptTimings& timings, const FrameCounts& counts) {
+void tell_timings(const AttemptTimings& timings, const CampaignStatus& status) {
   const bool rendered = timings.render_s > 0.0;  // else there is no worker, only the twin
   const double frame_s = rendered ? timings.build_s + timings.render_s : timings.finish_s;
   if (rendered) {
-    say("a frame takes a worker {:.3f} s ({:.3f} s of it to build the scene) and {:.3f} s "
-        "beside it\n",
+    tell(
+        "a frame takes a worker {:.3f} s ({:.3f} s of it to build the scene) and {:.3f} s beside "
+        "it",
         frame_s, timings.build_s, timings.finish_s);
   } else {
-    say("a frame takes a thread {:.3f} s\n", frame_s);
+    tell("a frame takes a thread {:.3f} s", frame_s);
   }
-  const auto left = static_cast<double>(counts.pending + counts.running);
-  if (left > 0) {
-    say("left for one {}: {}\n", rendered ? "worker" : "thread", duration_text(left * frame_s));
+  const auto left = static_cast<double>(status.counts.pending + status.counts.running);
+  if (left > 0 && !status.running) {
+    tell("left for one {}: {}", rendered ? "worker" : "thread", duration_text(left * frame_s));
+  }
+}
+
+/// A line for each that is at work, and when they will be done.
+void tell_progress(const CampaignStatus& status) {
+  for (const WorkerStatus& worker : status.workers) {
+    const WorkerRow& row = worker.row;
+    tell("  worker {:<3} {:>6} frames done{}{}{}", row.worker, row.done,
+         row.done > 0 ? fmt::format(", {:.2f} s each", row.frame_s) : "",
+         row.failed > 0 ? fmt::format(", {} failed", row.failed) : "",
+         row.frame
+             ? fmt::format(", at frame {} for {}", *row.frame, duration_text(worker.frame_for_s))
+             : ", idle");
+  }
+  if (status.left_s) tell("left: about {}", duration_text(*status.left_s));
+}
+
+void tell_troubles(const CampaignStatus& status, const std::string& folder) {
+  if (!status.inputs_touched.empty()) {
+    const std::size_t more = status.inputs_touched.size() - 1;
+    tell(
+        "{}{} changed or gone since its frames were made; 'seedframe resume {}' says what would be "
+        "made again",
+        printable(status.inputs_touched.front()),
+        more == 0 ? " has" : fmt::format(" and {} more inputs have", more), folder);
+  }
+  for (const std::string& difference : mixed_provenances(status)) {
+    tell("some attempts were made with {}: their pixels are not comparable", difference);
+  }
+  for (const AttemptRow& row : status.failures) {
+    tell("frame {}, attempt {} ({}): {}", row.frame, row.attempt, to_string(row.outcome),
+         row.message);
+  }
+  for (const FrameRow& row : status.quarantined) {
+    tell("frame {} is quarantined after {} crashes; see it again: {}", row.frame, row.crashes,
+         command_to_reproduce(folder, row.frame));
   }
 }
 
 void print_status(const CampaignStatus& status, const std::string& folder) {
   const FrameCounts& counts = status.counts;
-  say("{} frames: {} done, {} running, {} pending, {} failed, {} quarantined{}\n", counts.total(),
-      counts.done, counts.running, counts.pending, counts.failed, counts.quarantined,
-      status.running ? " (a scheduler is at work)" : "");
-  if (status.timings) print_timings(*status.timings, counts);
-  if (status.twin.frames > 0) say("{}", twin_text(status.twin));
+  tell("{} frames: {} done, {} running, {} pending, {} failed, {} quarantined{}", counts.total(),
+       counts.done, counts.running, counts.pending, counts.failed, counts.quarantined,
+       status.running ? " (a scheduler is at work)" : "");
+  tell_progress(status);
+  if (status.timings) tell_timings(*status.timings, status);
+  if (status.twin.frames > 0) tell_twin(status.twin);
   if (status.promise) {
-    for (const std::string& line : lines_of(*status.promise, folder)) say("{}\n", line);
+    for (const std::string& line : lines_of(*status.promise, folder)) tell("{}", line);
   }
-  if (!status.inputs_touched.empty()) {
-    const std::size_t more = status.inputs_touched.size() - 1;
-    say("{}{} changed or gone since its frames were made; 'seedframe resume {}' says what would be "
-        "made again\n",
-        printable(status.inputs_touched.front()),
-        more == 0 ? " has" : fmt::format(" and {} more inputs have", more), folder);
-  }
-  for (const std::string& difference : mixed_provenances(status)) {
-    say("some attempts were made with {}: their pixels are not comparable\n", difference);
-  }
-  for (const AttemptRow& row : status.failures) {
-    say("frame {}, attempt {} ({}): {}\n", row.frame, row.attempt, to_string(row.outcome),
-        row.message);
-  }
-  for (const FrameRow& row : status.quarantined) {
-    say("frame {} is quarantined after {} crashes; see it again: {}\n", row.frame, row.crashes,
-        command_to_reproduce(folder, row.frame));
-  }
+  tell_troubles(status, folder);
   if (!status.dataset_hash.empty()) {
-    say("dataset hash {}\n", status.dataset_hash);
+    tell("dataset hash {}", status.dataset_hash);
   } else if (!status.running) {
-    say("'seedframe resume {}' renders the rest\n", folder);
+    tell("'seedframe resume {}' renders the rest", folder);
   }
 }
 

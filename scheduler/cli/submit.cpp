@@ -3,6 +3,7 @@
 #include <chrono>
 #include <future>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -91,19 +92,42 @@ Result<Forecast> make_pilots(const PreparedCampaign& prepared, const RunSetup& s
   return told;
 }
 
+/// By frames of the campaign that is there already, if there is one with frames like these.
+std::optional<Forecast> told_by_earlier_frames(const PreparedCampaign& prepared,
+                                               const RunSetup& setup, std::int64_t frames,
+                                               const std::filesystem::path& folder) {
+  std::error_code missing;
+  if (prepared.settings.quality ||
+      !std::filesystem::exists(CampaignFiles(folder).store(), missing)) {
+    return std::nullopt;
+  }
+  const Result<Campaign> campaign = open_campaign(folder);
+  if (!campaign) return std::nullopt;
+  const auto told = told_by(*campaign, prepared.settings, setup.options.pool.workers, frames);
+  return told ? *told : std::nullopt;
+}
+
 /// `prepared_s`: seconds since the command began, which submitting would take too.
 int tell_costs(const SubmitArguments& arguments, const PreparedCampaign& prepared,
-               const RunSetup& setup, std::int64_t frames, double prepared_s) {
-  if (arguments.pilots == 0) {
-    say("about {}; --pilot 8 would make 8 frames to tell how long they take\n",
-        bytes_text(typical_frame_bytes(prepared.settings) * static_cast<std::uint64_t>(frames)));
+               const RunSetup& setup, std::int64_t frames, const std::filesystem::path& folder,
+               double prepared_s) {
+  if (arguments.pilots > 0) {
+    const Result<Forecast> told = make_pilots(prepared, setup, frames, arguments.pilots);
+    if (!told) return report(told.error());
+    say("about {} and {}, by {} frames that were made to tell ({:.3f} s each, ± {:.0f} %)\n",
+        duration_text(prepared_s + told->wall_s), bytes_text(told->bytes), told->pilots,
+        told->frame_s, 100.0 * told->spread);
     return kExitOk;
   }
-  const Result<Forecast> told = make_pilots(prepared, setup, frames, arguments.pilots);
-  if (!told) return report(told.error());
-  say("about {} and {}, by {} frames that were made to tell ({:.3f} s each, ± {:.0f} %)\n",
-      duration_text(prepared_s + told->wall_s), bytes_text(told->bytes), told->pilots,
-      told->frame_s, 100.0 * told->spread);
+  if (const auto told = told_by_earlier_frames(prepared, setup, frames, folder)) {
+    say("about {} and {}, by {} frames of the campaign that is there ({:.3f} s each); --pilot 8 "
+        "would make 8 frames to tell it by these\n",
+        duration_text(prepared_s + told->wall_s), bytes_text(told->bytes), told->pilots,
+        told->frame_s);
+    return kExitOk;
+  }
+  say("about {}; --pilot 8 would make 8 frames to tell how long they take\n",
+      bytes_text(typical_frame_bytes(prepared.settings) * static_cast<std::uint64_t>(frames)));
   return kExitOk;
 }
 
@@ -132,7 +156,7 @@ int submit(const SubmitArguments& arguments) {
   if (arguments.dry_run) {
     print_plan(*prepared, *summary, *setup, wanted, folder);
     const std::chrono::duration<double> prepared_s = std::chrono::steady_clock::now() - begin;
-    return tell_costs(arguments, *prepared, *setup, wanted, prepared_s.count());
+    return tell_costs(arguments, *prepared, *setup, wanted, folder, prepared_s.count());
   }
   if (arguments.overwrite) {
     if (Status cleared = clear_for_new_campaign(folder, arguments.yes); !cleared) {

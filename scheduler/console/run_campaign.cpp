@@ -37,6 +37,7 @@ int print_outcome(const Campaign& campaign, std::int64_t done_before, const RunS
       summary.from_cache > 0 ? fmt::format(", {} of them found on this machine", summary.from_cache)
                              : "",
       duration_text(seconds));
+  if (counts->done > 0) say("look: 'seedframe show {}'\n", folder);
   if (counts->quarantined > 0) {
     say("{} frames are quarantined, each has cost too many workers: 'seedframe status {}' "
         "names them and how to see it again\n",

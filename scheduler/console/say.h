@@ -1,6 +1,7 @@
 // What the program says to a person.
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -25,5 +26,9 @@ void say_aside(fmt::format_string<Arguments...> format, Arguments&&... arguments
   const std::string text = printable(fmt::format(format, std::forward<Arguments>(arguments)...));
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
+
+/// The text with its lines broken between words so that none has more than `columns` characters,
+/// but for words that are longer; what was broken goes on two columns further in.
+std::string wrapped(const std::string& text, std::size_t columns);
 
 }  // namespace seedframe

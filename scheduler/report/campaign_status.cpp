@@ -1,5 +1,7 @@
 #include "report/campaign_status.h"
 
+#include <algorithm>
+
 #include "campaign/campaign_lock.h"
 #include "campaign/input_files.h"
 #include "campaign/provenance.h"
@@ -11,9 +13,22 @@ constexpr int kTimedAttempts = 100;
 constexpr int kShownFailures = 5;
 constexpr int kShownQuarantined = 20;
 
+/// Of a run that is under way.
+void add_progress(const RunProgress& progress, double now, CampaignStatus& status) {
+  for (const WorkerRow& row : progress.workers) {
+    status.workers.push_back({row, row.frame ? std::max(0.0, now - row.since) : 0.0});
+  }
+  const bool traced = status.timings && status.timings->render_s == 0.0;
+  if (traced) status.workers.clear();  // its threads have no numbers
+  const double elapsed_s = now - progress.began;
+  if (progress.done < 2 || elapsed_s <= 0.0) return;
+  status.left_s = static_cast<double>(status.counts.pending + status.counts.running) * elapsed_s /
+                  static_cast<double>(progress.done);
+}
+
 }  // namespace
 
-Result<CampaignStatus> read_status(const Campaign& campaign) {
+Result<CampaignStatus> read_status(const Campaign& campaign, double now) {
   CampaignStatus status;
   const auto counts = campaign.store.counts();
   if (!counts) return forward_error(counts);
@@ -44,6 +59,11 @@ Result<CampaignStatus> read_status(const Campaign& campaign) {
   status.inputs_touched = std::move(*touched);
   const auto lock = CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0));
   status.running = !lock && lock.error().kind == ErrorKind::kInput;  // held, not out of reach
+  if (status.running) {
+    const auto progress = campaign.store.run_progress();
+    if (!progress) return forward_error(progress);
+    add_progress(*progress, now, status);
+  }
   return status;
 }
 
@@ -76,6 +96,16 @@ Json to_json(const CampaignStatus& status) {
                   {"pixels", twin.sum.pixels},
                   {"inside_px", twin.sum.inside_px},
                   {"edge_px", twin.sum.edge_px}};
+  json["workers"] = Json::array();
+  for (const WorkerStatus& worker : status.workers) {
+    json["workers"].push_back({{"worker", worker.row.worker},
+                               {"done", worker.row.done},
+                               {"failed", worker.row.failed},
+                               {"frame_s", worker.row.frame_s},
+                               {"frame", worker.row.frame ? Json(*worker.row.frame) : Json()},
+                               {"frame_for_s", worker.frame_for_s}});
+  }
+  json["left_s"] = status.left_s ? Json(*status.left_s) : Json();
   if (status.timings) {
     json["mean_seconds"] = {{"build", status.timings->build_s},
                             {"render", status.timings->render_s},

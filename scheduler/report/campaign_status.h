@@ -6,11 +6,18 @@
 #include <vector>
 
 #include "base/canonical_json.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "campaign/campaign.h"
 #include "report/promise_status.h"
 
 namespace seedframe {
+
+/// A worker that is there, as its run has noted it.
+struct WorkerStatus {
+  WorkerRow row;
+  double frame_for_s = 0.0;  ///< that it has been at its frame
+};
 
 struct CampaignStatus {
   FrameCounts counts;
@@ -22,10 +29,13 @@ struct CampaignStatus {
   std::vector<std::string> provenances;     ///< of attempts, as JSON
   std::optional<PromiseStatus> promise;     ///< of how wrong frames are
   bool running = false;                     ///< a scheduler is at work
+  std::vector<WorkerStatus> workers;        ///< while one is: those that render
+  std::optional<double> left_s;             ///< while one is: what is left at the run's rate
   std::vector<std::string> inputs_touched;  ///< files that are not as they were for its frames
 };
 
-Result<CampaignStatus> read_status(const Campaign& campaign);
+/// `now`: Unix time, seconds.
+Result<CampaignStatus> read_status(const Campaign& campaign, double now = unix_time());
 
 Json to_json(const CampaignStatus& status);
 

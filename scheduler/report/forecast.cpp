@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "base/spread.h"
-#include "campaign/campaign.h"
 #include "campaign/campaign_runner.h"
 #include "campaign/disk_space.h"
+#include "frames/frame_reader.h"
 
 namespace seedframe {
 namespace {
@@ -55,6 +55,15 @@ double standard_error_of(const std::vector<double>& values) {
   return std::sqrt(squares / (n - 1.0) / n);
 }
 
+/// As far as settings tell.
+bool costs_the_same(const FrameSpec& spec, const CampaignSettings& settings) {
+  const RenderSettings &one = spec.render, &other = settings.render;
+  return spec.labels.source == settings.labels && one.width == other.width &&
+         one.height == other.height && one.samples == other.samples &&
+         one.adaptive == other.adaptive && one.denoise == other.denoise &&
+         one.max_bounces == other.max_bounces;
+}
+
 }  // namespace
 
 Forecast told_by(const std::vector<AttemptRow>& pilots, double begin, int workers,
@@ -79,6 +88,29 @@ Forecast told_by(const std::vector<AttemptRow>& pilots, double begin, int worker
                     static_cast<double>(frames) * forecast.frame_s / at_once +
                     pilots.back().finish_s;
   return forecast;
+}
+
+Result<std::optional<Forecast>> told_by(const Campaign& campaign, const CampaignSettings& settings,
+                                        int workers, std::int64_t frames) {
+  constexpr int kNewest = 100;
+  const auto timings = campaign.store.mean_timings(kNewest);
+  if (!timings) return forward_error(timings);
+  const auto done = campaign.store.frames_in(FrameState::kDone, kNewest);
+  if (!done) return forward_error(done);
+  if (!*timings || done->empty()) return std::nullopt;
+  const Result<FrameSpec> spec = stored_spec(campaign.files.frame(done->front().frame));
+  if (!spec || !costs_the_same(*spec, settings)) return std::nullopt;
+  const auto bytes = expected_frame_bytes(campaign, settings);
+  if (!bytes) return forward_error(bytes);
+  const bool rendered = (*timings)->render_s > 0.0;
+  Forecast told;
+  told.frames = frames;
+  told.pilots = static_cast<int>(done->size());
+  told.frame_s = rendered ? (*timings)->build_s + (*timings)->render_s : (*timings)->finish_s;
+  told.wall_s = static_cast<double>(frames) * told.frame_s /
+                static_cast<double>(std::min<std::int64_t>(workers, frames));
+  told.bytes = *bytes * static_cast<std::uint64_t>(frames);
+  return told;
 }
 
 Result<Forecast> forecast(const PreparedCampaign& prepared, RunSetup setup, std::int64_t frames,

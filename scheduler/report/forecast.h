@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "base/error.h"
+#include "campaign/campaign.h"
 #include "campaign/campaign_run.h"
 #include "campaign/run_options.h"
 #include "scene/prepared_campaign.h"
@@ -27,6 +29,12 @@ struct Forecast {
 /// worker's first frame reads meshes and images, so it counts as start-up where there are others.
 Forecast told_by(const std::vector<AttemptRow>& pilots, double begin, int workers,
                  std::int64_t frames);
+
+/// Told by the newest frames of a campaign, if some of them were made by workers with as many
+/// pixels and samples as `settings` have; nothing otherwise. `pilots` are those frames; the start
+/// of workers is left out.
+Result<std::optional<Forecast>> told_by(const Campaign& campaign, const CampaignSettings& settings,
+                                        int workers, std::int64_t frames);
 
 /// Makes `pilots` frames, spread over the first `frames` of the campaign, as a run would make them:
 /// in `folder`, which becomes new and is not cleared away. Nothing comes from the cache or goes

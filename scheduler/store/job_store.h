@@ -71,6 +71,23 @@ struct AttemptTimings {
   double finish_s = 0.0;
 };
 
+/// A worker of a run, and what came of it.
+struct WorkerRow {
+  int worker = 0;
+  std::int64_t done = 0;
+  std::int64_t failed = 0;            ///< attempts
+  double frame_s = 0.0;               ///< mean of its frames that are done: building and rendering
+  std::optional<std::int64_t> frame;  ///< that it is at: the first of those that it was given
+  double since = 0.0;                 ///< when that began, Unix time, seconds
+};
+
+/// Of the last run.
+struct RunProgress {
+  double began = 0.0;     ///< its first attempt, Unix time, seconds; 0: there is none yet
+  std::int64_t done = 0;  ///< frames that workers made
+  std::vector<WorkerRow> workers;
+};
+
 struct TwinSummary {
   std::int64_t frames = 0;            ///< compared
   std::int64_t frames_differing = 0;  ///< in any pixel
@@ -155,6 +172,7 @@ class JobStore {
   Result<std::vector<std::string>> provenances() const;
   /// The newest errors and crashes, newest first.
   Result<std::vector<AttemptRow>> recent_failures(int most) const;
+  Result<RunProgress> run_progress() const;
   /// Over all frames that are done and were compared with their twins.
   Result<TwinSummary> twin_summary() const;
   /// Mean over the newest `most` attempts that are done; none if there are none.

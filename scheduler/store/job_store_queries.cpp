@@ -1,4 +1,5 @@
 // What can be asked of a job store.
+#include <algorithm>
 #include <array>
 
 #include "base/sha256.h"
@@ -233,6 +234,39 @@ Result<std::vector<AttemptRow>> JobStore::recent_failures(int most) const {
   while (select.step()) rows.push_back(attempt_row(select));
   if (Status done = select.status(); !done) return forward_error(done);
   return rows;
+}
+
+Result<RunProgress> JobStore::run_progress() const {
+  RunProgress progress;
+  Statement ended(database_->connection,
+                  "SELECT worker, count(CASE WHEN outcome = 'done' THEN 1 END), "
+                  "count(CASE WHEN outcome IN ('error', 'crash') THEN 1 END), "
+                  "avg(CASE WHEN outcome = 'done' THEN build_s + render_s END), min(started) "
+                  "FROM attempts WHERE run = (SELECT max(run) FROM runs) AND worker >= 0 "
+                  "GROUP BY worker ORDER BY worker");
+  while (ended.step()) {
+    WorkerRow& row = progress.workers.emplace_back();
+    row.worker = static_cast<int>(ended.integer(0));
+    row.done = ended.integer(1);
+    row.failed = ended.integer(2);
+    row.frame_s = ended.real(3);
+    progress.done += row.done;
+    const double started = ended.real(4);
+    progress.began = progress.began == 0.0 ? started : std::min(progress.began, started);
+  }
+  if (Status done = ended.status(); !done) return forward_error(done);
+  Statement running(database_->connection,
+                    "SELECT worker, frame, started FROM attempts WHERE outcome = 'running' AND "
+                    "run = (SELECT max(run) FROM runs) ORDER BY started DESC, frame DESC");
+  while (running.step()) {
+    for (WorkerRow& row : progress.workers) {
+      if (row.worker != running.integer(0)) continue;
+      row.frame = running.integer(1);
+      row.since = running.real(2);
+    }
+  }
+  if (Status done = running.status(); !done) return forward_error(done);
+  return progress;
 }
 
 Result<TwinSummary> JobStore::twin_summary() const {

@@ -40,6 +40,19 @@ TEST_F(ForecastTest, IsNotMadeUnlessAskedFor) {
   EXPECT_EQ(outcome.output.find("were made"), std::string::npos);
 }
 
+TEST_F(ForecastTest, IsToldByFramesThatAreThereIfTheyAreLikeThese) {
+  const Outcome some = run(
+      {"submit", "gears.yaml", "-o", "c", "--blender", kFakeBlender, "--quiet", "--frames", "3"});
+  ASSERT_EQ(some.exit_code, 0) << some.errors;
+  EXPECT_THAT(some.output, HasSubstr("look: 'seedframe show c'"));
+  const Outcome outcome = dry_run({"--dry-run"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("by 3 frames of the campaign that is there"));
+  const Outcome others = dry_run({"--dry-run", "--set", "render.samples=7"});
+  EXPECT_THAT(others.output, HasSubstr("--pilot 8 would make 8 frames to tell how long"))
+      << "they have other samples";
+}
+
 TEST_F(ForecastTest, SaysWhatStandsInItsWay) {
   EXPECT_THAT(dry_run({"--pilot", "4"}).errors, HasSubstr("--dry-run"));
   const Outcome failing = dry_run({"--dry-run", "--pilot", "2", "--quiet"},

@@ -78,6 +78,35 @@ TEST_F(JobStoreTest, WhatWasCommittedIsThereAfterReopening) {
   EXPECT_DOUBLE_EQ((*store->mean_timings(10))->finish_s, 0.3);
 }
 
+TEST_F(JobStoreTest, TellsHowFarTheWorkersOfTheLastRunAre) {
+  JobStore store = store_with(7);
+  ASSERT_TRUE(store.attempt_started(0, 1, 5, 1.0));
+  ASSERT_TRUE(store.frame_done(0, 1, {"hash", "", {}}, {.build_s = 9.0}));
+  ASSERT_TRUE(store.begin_run(50.0, "host", 2));
+  EXPECT_EQ(store.run_progress()->began, 0.0);
+  EXPECT_TRUE(store.run_progress()->workers.empty()) << "worker 5 was of an earlier run";
+  ASSERT_TRUE(store.attempt_started(1, 1, 0, 100.0));
+  ASSERT_TRUE(store.attempt_started(2, 1, 1, 101.0));
+  ASSERT_TRUE(store.attempt_started(3, 1, 0, 102.0));
+  ASSERT_TRUE(store.attempt_started(4, 1, 0, 103.0));
+  ASSERT_TRUE(store.attempt_started(5, 1, kNoWorker, 90.0));
+  ASSERT_TRUE(store.frame_done(1, 1, {"hash", "", {}}, {.build_s = 0.5, .render_s = 1.5}));
+  ASSERT_TRUE(store.frame_done(5, 1, {"hash", "", {}}, {}));
+  ASSERT_TRUE(store.attempt_failed(2, 1, AttemptOutcome::kError, FrameState::kPending, "no"));
+  const auto progress = store.run_progress();
+  ASSERT_TRUE(progress) << progress.error().message;
+  EXPECT_EQ(progress->began, 100.0) << "what was found on this machine is no worker's";
+  EXPECT_EQ(progress->done, 1);
+  ASSERT_EQ(progress->workers.size(), 2U);
+  EXPECT_EQ(progress->workers[0].worker, 0);
+  EXPECT_EQ(progress->workers[0].done, 1);
+  EXPECT_DOUBLE_EQ(progress->workers[0].frame_s, 2.0);
+  EXPECT_EQ(progress->workers[0].frame, 3) << "the first of those that wait for it";
+  EXPECT_EQ(progress->workers[0].since, 102.0);
+  EXPECT_EQ(progress->workers[1].failed, 1);
+  EXPECT_FALSE(progress->workers[1].frame);
+}
+
 TEST_F(JobStoreTest, WhatIsWrittenTogetherIsWrittenAllOrNotAtAll) {
   JobStore store = store_with(3);
   ASSERT_TRUE(store.write_together(JobStore::Sync::kLater, [&]() -> Status {
