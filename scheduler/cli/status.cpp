@@ -56,7 +56,7 @@ void tell_timings(const AttemptTimings& timings, const CampaignStatus& status) {
 void tell_progress(const CampaignStatus& status) {
   for (const WorkerStatus& worker : status.workers) {
     const WorkerRow& row = worker.row;
-    tell("  worker {:<3} {:>6} frames done{}{}{}", row.worker, row.done,
+    tell("  worker {:<3} {:>6} frame{} done{}{}{}", row.worker, row.done, row.done == 1 ? "" : "s",
          row.done > 0 ? fmt::format(", {:.2f} s each", row.frame_s) : "",
          row.failed > 0 ? fmt::format(", {} failed", row.failed) : "",
          row.frame
@@ -92,7 +92,7 @@ void print_status(const CampaignStatus& status, const std::string& folder) {
   const FrameCounts& counts = status.counts;
   tell("{} frames: {} done, {} running, {} pending, {} failed, {} quarantined{}", counts.total(),
        counts.done, counts.running, counts.pending, counts.failed, counts.quarantined,
-       status.running ? " (a scheduler is at work)" : "");
+       status.running ? " (at work)" : "");
   tell_progress(status);
   if (status.timings) tell_timings(*status.timings, status);
   if (status.twin.frames > 0) tell_twin(status.twin);

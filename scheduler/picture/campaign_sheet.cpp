@@ -53,7 +53,8 @@ class SheetMaker {
     for (const std::int64_t frame : wish_.frames) {
       if (Status shown = show(frame, counts->total()); !shown) return forward_error(shown);
     }
-    if (!size_) size_ = tile_size(4 * most_width(), 3 * most_width(), most_width());
+    // What has no frame of a known shape has room for a message.
+    if (!size_) size_ = TileSize{most_width(), is_single_ ? 160 : 3 * most_width() / 4, 1.0};
     close_messages();
     out_.sheet.columns = wish_.columns > 0 ? wish_.columns : usual_columns();
     arrange();
@@ -120,24 +121,29 @@ class SheetMaker {
         complain(row, "failed");
         break;
       case FrameState::kQuarantined:
-        complain(row, fmt::format("quarantined after {}",
-                                  row.crashes == 1 ? "a crash" : counted(row.crashes, "crashe")));
+        complain(row, "quarantined");
         break;
     }
   }
 
   void complain(const FrameRow& row, const std::string& state) {
-    out_.complaints.push_back(fmt::format("frame {} {}{}: {}", row.frame,
-                                          state == "failed" ? "" : "is ", state, row.error));
-    add_message(row.frame, state, row.error);
+    std::string error = row.error;
+    std::replace(error.begin(), error.end(), '\n', ' ');
+    if (row.state == FrameState::kQuarantined) {
+      error = fmt::format("it has cost {} workers: {}", row.crashes, error);
+    }
+    out_.complaints.push_back(
+        fmt::format("frame {} {}{}: {}", row.frame, state == "failed" ? "" : "is ", state, error));
+    add_message(row.frame, state, error);
   }
 
   void add_message(std::int64_t frame, const std::string& title, const std::string& text) {
-    for (std::size_t i = 0; i < wish_.tiles.size(); ++i) {
+    const std::size_t tiles = is_single_ ? 1 : wish_.tiles.size();
+    for (std::size_t i = 0; i < tiles; ++i) {
       OpenTile open;
       open.title = title;
       open.text = text;
-      open.tile.caption = caption(frame, i);
+      if (!is_single_) open.tile.caption = caption(frame, i);
       tiles_.push_back(std::move(open));
     }
   }

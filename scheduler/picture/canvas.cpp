@@ -82,6 +82,21 @@ struct Canvas::Drawing {
     return extents.x_advance;
   }
 
+  /// Of whole characters from the line's begin that have room together with `end`.
+  std::size_t fitting_bytes(const std::string& line, double width, const std::string& end) {
+    std::vector<std::size_t> ends = {0};
+    while (ends.back() < line.size()) {
+      ends.push_back(ends.back() + std::max<std::size_t>(1, utf8_length(line, ends.back())));
+    }
+    std::size_t fits = 0, too_many = ends.size();
+    while (fits + 1 < too_many) {
+      const std::size_t middle = (fits + too_many) / 2;
+      const bool has_room = width_of(line.substr(0, ends[middle]) + end) <= width;
+      (has_room ? fits : too_many) = middle;
+    }
+    return ends[fits];
+  }
+
   cairo_surface_t* surface;
   cairo_t* cairo;
 };
@@ -157,33 +172,28 @@ double Canvas::width_of(const std::string& text, const TextStyle& style) {
 
 std::string Canvas::fitted(const std::string& text, double width, const TextStyle& style) {
   drawing_->set_font(style);
-  std::string line = shown(text);
+  const std::string line = shown(text);
   if (drawing_->width_of(line) <= width) return line;
-  // Characters that end before the bound, by halving.
-  std::vector<std::size_t> ends = {0};
-  while (ends.back() < line.size()) {
-    ends.push_back(ends.back() + std::max<std::size_t>(1, utf8_length(line, ends.back())));
-  }
-  std::size_t fits = 0, too_many = ends.size();
-  while (fits + 1 < too_many) {
-    const std::size_t middle = (fits + too_many) / 2;
-    const bool has_room = drawing_->width_of(line.substr(0, ends[middle]) + "…") <= width;
-    (has_room ? fits : too_many) = middle;
-  }
-  return line.substr(0, ends[fits]) + "…";
+  return line.substr(0, drawing_->fitting_bytes(line, width, "…")) + "…";
 }
 
 std::vector<std::string> Canvas::wrapped(const std::string& text, double width, int most_lines,
                                          const TextStyle& style) {
   drawing_->set_font(style);
   std::vector<std::string> lines;
-  for (const std::string& word : words_of(text)) {
-    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
-    const bool is_last = static_cast<int>(lines.size()) == most_lines;
-    if (!lines.empty() && (is_last || drawing_->width_of(longer) <= width)) {
-      lines.back() = longer;
-    } else {
-      lines.push_back(word);
+  for (std::string word : words_of(text)) {
+    while (!word.empty()) {
+      const std::string longer = lines.empty() ? word : lines.back() + " " + word;
+      const bool is_last = static_cast<int>(lines.size()) == most_lines;
+      if (!lines.empty() && (is_last || drawing_->width_of(longer) <= width)) {
+        lines.back() = longer;
+        break;
+      }
+      // A word without room in a line of its own, such as a path, goes on in the next.
+      const std::size_t fits = drawing_->fitting_bytes(word, width, "");
+      const std::size_t bytes = fits == 0 ? std::max<std::size_t>(1, utf8_length(word, 0)) : fits;
+      lines.push_back(word.substr(0, bytes));
+      word.erase(0, bytes);
     }
   }
   for (std::string& line : lines) line = fitted(line, width, style);

@@ -70,7 +70,8 @@ class Canvas {
   double width_of(const std::string& text, const TextStyle& style);
   /// As much of the text as has room, with "…" in place of the rest.
   std::string fitted(const std::string& text, double width, const TextStyle& style);
-  /// The text's words in lines that have room; the last of `most_lines` is fitted.
+  /// The text's words in lines that have room, longer ones in pieces; the last of `most_lines` is
+  /// fitted.
   std::vector<std::string> wrapped(const std::string& text, double width, int most_lines,
                                    const TextStyle& style);
   /// Begins at `at`, which is on the base line.

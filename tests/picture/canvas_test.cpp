@@ -108,6 +108,19 @@ TEST(Canvas, WrapsWordsIntoNoMoreLinesThanThereAre) {
   EXPECT_THAT(lines.back(), HasSubstr("…"));
 }
 
+TEST(Canvas, WrapsALongWordInPieces) {
+  Canvas canvas(10, 10, kWhite);
+  const TextStyle style{.size = 12.0};
+  const std::string path = "/a/path/that/is/far/longer/than/its/tile/Größe.png";
+  std::string together;
+  for (const std::string& line : canvas.wrapped(path, 90.0, 20, style)) {
+    EXPECT_LE(canvas.width_of(line, style), 90.0);
+    together += line;
+  }
+  EXPECT_EQ(together, path);
+  EXPECT_EQ(canvas.wrapped("ab", 1.0, 5, style).size(), 2U) << "a letter a line at least";
+}
+
 TEST(Canvas, DrawsTheSameAgain) {
   const auto draw = [] {
     Canvas canvas(80, 40, kWhite);
