@@ -62,8 +62,8 @@ std::string NameDraw::evaluate(EvaluationContext& context) const {
     return options_[0].pieces[0].text;
   }
   std::size_t chosen = 0;
+  std::vector<double> weights;
   if (stream_) {
-    std::vector<double> weights;
     for (const Option& option : options_) weights.push_back(option.weight.evaluate(context));
     if (const std::string wrong = quantile::weight_error(weights); !wrong.empty()) {
       context.report(place_, wrong);
@@ -71,13 +71,22 @@ std::string NameDraw::evaluate(EvaluationContext& context) const {
       chosen = quantile::choice(stream_->uniform(context.position(level_)), weights);
     }
   }
-  std::string value;
-  for (const Piece& piece : options_[chosen].pieces) {
-    value += piece.text;
-    if (piece.variable) value += context.values.texts[*piece.variable];
-  }
+  const auto text_of = [&context](const Option& option) {
+    std::string text;
+    for (const Piece& piece : option.pieces) {
+      text += piece.text;
+      if (piece.variable) text += context.values.texts[*piece.variable];
+    }
+    return text;
+  };
+  std::string value = text_of(options_[chosen]);
   if (stream_ && context.record != nullptr) {
-    context.record->push_back({draw_name(name_, context), value});
+    DrawLaw law;
+    law.level = level_;
+    law.kind = DistributionKind::kChoice;
+    law.weights = std::move(weights);
+    for (const Option& option : options_) law.names.push_back(text_of(option));
+    context.record->push_back({draw_name(name_, context), value, std::move(law)});
   }
   return value;
 }

@@ -166,11 +166,34 @@ double NumberDraw::evaluate(EvaluationContext& context) const {
   return 0.0;
 }
 
+DrawLaw NumberDraw::law_of(const Random& random, const std::array<double, 4>& parameters,
+                           const std::vector<double>& drawn_weights) {
+  DrawLaw law;
+  law.level = random.level;
+  law.kind = random.kind;
+  law.parameters = parameters;
+  if (random.kind != DistributionKind::kChoice) {
+    law.samples = random.samples;
+    return law;
+  }
+  law.weights = random.constant_weights.empty() ? drawn_weights : random.constant_weights;
+  for (const NumberDraw& option : random.parameters) {
+    const double* constant = std::get_if<double>(&option.value_);
+    if (constant == nullptr) {
+      law.numbers.clear();
+      break;
+    }
+    law.numbers.push_back(*constant);
+  }
+  return law;
+}
+
 double NumberDraw::draw(const Random& random, const Place& place, EvaluationContext& context) {
   const double u = random.uniform(context);
   double value = 0.0;
+  std::array<double, 4> p{};
+  std::vector<double> drawn_weights;
   if (random.kind == DistributionKind::kChoice) {
-    std::vector<double> drawn_weights;
     if (random.constant_weights.empty()) {
       for (const NumberDraw& weight : random.weights) {
         drawn_weights.push_back(weight.evaluate(context));
@@ -184,7 +207,6 @@ double NumberDraw::draw(const Random& random, const Place& place, EvaluationCont
         u, random.constant_weights.empty() ? drawn_weights : random.constant_weights);
     value = random.parameters[chosen].evaluate(context);
   } else {
-    std::array<double, 4> p{};
     for (std::size_t i = 0; i < random.parameters.size(); ++i) {
       p[i] = random.parameters[i].evaluate(context);
     }
@@ -218,8 +240,10 @@ double NumberDraw::draw(const Random& random, const Place& place, EvaluationCont
         break;
     }
   }
-  if (context.record != nullptr)
-    context.record->push_back({draw_name(random.name, context), value});
+  if (context.record != nullptr) {
+    context.record->push_back(
+        {draw_name(random.name, context), value, law_of(random, p, drawn_weights)});
+  }
   return value;
 }
 

@@ -1,6 +1,7 @@
 // A number of a config: a constant, a formula, or one uniform through a quantile function.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "base/diagnostics.h"
 #include "base/philox.h"
 #include "config/values.h"
+#include "draws/draw_law.h"
 #include "draws/evaluation_context.h"
 #include "draws/sobol.h"
 
@@ -51,6 +53,8 @@ class NumberDraw {
                                                       const std::string& name, Level level,
                                                       Diagnostics& errors);
   static double draw(const Random& random, const Place& place, EvaluationContext& context);
+  static DrawLaw law_of(const Random& random, const std::array<double, 4>& parameters,
+                        const std::vector<double>& drawn_weights);
 
   Place place_;
   Dimension dimension_;

@@ -163,6 +163,8 @@ class JobStore {
   /// Up to `most` frames in this state, in order.
   Result<std::vector<FrameRow>> frames_in(FrameState state, int most) const;
   Result<std::vector<AttemptRow>> attempts(std::int64_t frame) const;
+  /// Of all frames, in the order of frames and attempts; stops at the first error of `visit`.
+  Status for_each_attempt(const std::function<Status(const AttemptRow&)>& visit) const;
   /// Frames of the last good attempts that were begun by the same worker before this one, at most
   /// `most`, oldest first. (Runs number their workers alike: of an earlier run some may be
   /// another's.)

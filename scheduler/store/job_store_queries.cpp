@@ -202,6 +202,15 @@ Result<std::vector<AttemptRow>> JobStore::attempts(std::int64_t frame) const {
   return rows;
 }
 
+Status JobStore::for_each_attempt(const std::function<Status(const AttemptRow&)>& visit) const {
+  const std::string sql = std::string(kAttemptColumns) + "ORDER BY frame, attempt";
+  Statement select(database_->connection, sql.c_str());
+  while (select.step()) {
+    if (Status done = visit(attempt_row(select)); !done) return done;
+  }
+  return select.status();
+}
+
 Result<std::vector<std::string>> JobStore::provenances() const {
   Statement select(database_->connection, "SELECT json FROM provenances ORDER BY provenance");
   std::vector<std::string> texts;
