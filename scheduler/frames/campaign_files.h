@@ -34,6 +34,8 @@ class CampaignFiles {
   std::filesystem::path kept_asset(const std::string& name) const {
     return root_ / "inputs" / "assets" / name;
   }
+  /// The page that `seedframe report` makes; beside it, for many frames, report_files/.
+  std::filesystem::path report() const { return root_ / "report.html"; }
   /// What was rendered of a frame that is not as its twin sees it, for inspection.
   std::filesystem::path rejected(std::int64_t frame) const;
   /// Scratch space: mesh buffers for the workers and attempts under way. Gone when nothing runs.

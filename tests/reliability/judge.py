@@ -24,7 +24,7 @@ MARKER = "SEEDFRAME_RELIABILITY"  # in the environment of the program and, inher
 LAYOUT = re.compile(
     r"campaign\.(yaml|lock|sqlite|sqlite-wal|sqlite-shm)|provenance\.json|logs/(worker-\d\d\.log(\.1)?|crash-\d{6,}-\d+\.log)"
     r"|frames/\d{3,}/\d{6,}/[a-z_.]+|rejected/\d{6,}/[a-z_.]+|exports/.*"
-    r"|inputs/(inputs\.json|assets/[^/]+/(asset\.json|mesh\.drc))")
+    r"|inputs/(inputs\.json|assets/[^/]+/(asset\.json|mesh\.drc))|report\.html|report_files/part-\d+\.js")
 
 STORE_FILES = ("campaign.sqlite", "campaign.sqlite-wal", "campaign.sqlite-journal")
 

@@ -1,0 +1,14 @@
+// The sources of pages, as cmake/embed.cmake puts them into the program.
+#pragma once
+
+#include <string_view>
+
+namespace seedframe::web {
+
+extern const std::string_view kTemplate;      ///< index.html, with {{names}} for what is put in
+extern const std::string_view kStyle;         ///< page.css
+extern const std::string_view kScript;        ///< our own scripts, one behind the other
+extern const std::string_view kChart;         ///< Chart.js
+extern const std::string_view kChartLicense;  ///< its licence
+
+}  // namespace seedframe::web
