@@ -71,6 +71,7 @@ class PageMaker {
   const PageWish wish_;
   const ToldText told_;
   KeptInputs inputs_;
+  bool knows_inputs_ = true;  ///< false: a frame has to tell
   std::vector<std::string> provenances_;
   std::vector<FrameRow> rows_;  ///< that are shown
   std::map<std::int64_t, std::vector<ShownAttempt>> attempts_;
@@ -95,7 +96,8 @@ Status PageMaker::read_inputs() {
   }
   if (prepared_ == nullptr) {
     if (!kept) return forward_error(kept);
-    inputs_.name = told_.name();  // of a campaign that never ran
+    inputs_.name = told_.name();
+    knows_inputs_ = false;
     return {};
   }
   const CampaignSettings& settings = prepared_->settings;
@@ -148,7 +150,7 @@ CommittedFrame PageMaker::committed(const FrameRow& row) const {
   return {row.frame, static_cast<int>(row.scene), campaign_.files.frame(row.frame), row.frame_id};
 }
 
-/// By the first frame that can be read; all have the size of the config.
+/// By the first frame that can be read; all have the same.
 void PageMaker::choose_sizes() {
   image_ = {4, 3};
   if (prepared_ != nullptr) {
@@ -156,9 +158,13 @@ void PageMaker::choose_sizes() {
   }
   for (const FrameRow& row : rows_) {
     if (row.state != FrameState::kDone) continue;
-    const Result<ThumbnailSize> size = image_size_of(committed(row));
-    if (!size || size->width <= 0 || size->height <= 0) continue;
-    image_ = *size;
+    const Result<FrameLabels> labels = stored_labels(committed(row));
+    if (!labels || labels->width <= 0 || labels->height <= 0) continue;
+    image_ = {labels->width, labels->height};
+    if (knows_inputs_) break;
+    inputs_.categories = labels->categories;
+    const auto manifest = read_manifest(campaign_.files.frame(row.frame));
+    inputs_.has_images = manifest && manifest->pixel_hashes.contains("image");
     break;
   }
   layout_ = sheet_layout(

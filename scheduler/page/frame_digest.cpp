@@ -22,15 +22,13 @@ std::uint16_t permille(double share) {
 
 }  // namespace
 
-Result<ThumbnailSize> image_size_of(const CommittedFrame& frame) {
+Result<FrameLabels> stored_labels(const CommittedFrame& frame) {
   const std::filesystem::path file = frame.folder / frame_files::kLabels;
   const Result<std::string> text = read_file(file);
   if (!text) return forward_error(text);
   const Result<Json> json = parse_json(*text, file.string());
   if (!json) return forward_error(json);
-  const Result<FrameLabels> labels = labels_from_json(*json, file.string());
-  if (!labels) return forward_error(labels);
-  return ThumbnailSize{labels->width, labels->height};
+  return labels_from_json(*json, file.string());
 }
 
 FrameDigest digest_frame(const CommittedFrame& frame, const std::vector<std::string>& categories,

@@ -22,8 +22,8 @@ struct FrameDigest {
   std::optional<PictureSignature> signature;
 };
 
-/// Width and height of the image, as labels.json says.
-Result<ThumbnailSize> image_size_of(const CommittedFrame& frame);
+/// labels.json, whatever the manifest says.
+Result<FrameLabels> stored_labels(const CommittedFrame& frame);
 
 /// Reads and checks the frame's files as an export does.
 FrameDigest digest_frame(const CommittedFrame& frame, const std::vector<std::string>& categories,

@@ -30,6 +30,38 @@ std::string percent(double share) {
                                      : fmt::format("{:.0f} %", value);
 }
 
+/// 12345 → "12,345".
+std::string grouped(std::int64_t n) {
+  std::string digits = std::to_string(n);
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) {
+    digits.insert(static_cast<std::size_t>(at), 1, ',');
+  }
+  return digits;
+}
+std::string grouped(std::size_t n) { return grouped(static_cast<std::int64_t>(n)); }
+
+/// "1 group", "2 groups".
+std::string counted(std::size_t n, const char* what) {
+  return fmt::format("{} {}{}", grouped(n), what, n == 1 ? "" : "s");
+}
+
+/// Of many classes with the same fault the first are told each, the others together.
+void join_many(std::size_t first, const std::string& title, std::vector<HealthFinding>& findings) {
+  constexpr std::size_t kMostListed = 6;
+  if (findings.size() <= first + kMostListed) return;
+  const auto rest = findings.begin() + static_cast<std::ptrdiff_t>(first + kMostListed) - 1;
+  HealthFinding joined = *rest;
+  joined.category.clear();
+  joined.frames.clear();
+  joined.title = fmt::format("{}: {} more", title, findings.end() - rest);
+  joined.text.clear();
+  for (auto each = rest; each != findings.end(); ++each) {
+    joined.text += (joined.text.empty() ? "" : ", ") + each->category;
+  }
+  findings.erase(rest, findings.end());
+  findings.push_back(std::move(joined));
+}
+
 double share_of(std::size_t some, std::size_t all) {
   return all == 0 ? 0.0 : static_cast<double>(some) / static_cast<double>(all);
 }
@@ -69,12 +101,11 @@ void check_classes(const HealthFacts& facts, std::vector<HealthFinding>& finding
     ++all;
   });
   const double mean = static_cast<double>(all) / static_cast<double>(facts.categories.size());
-  bool balanced = true;
+  const std::size_t first = findings.size();
   for (std::size_t k = 1; k < counts.size(); ++k) {
     const bool few = counts[k] < kFewObjects;
     const bool rare = static_cast<double>(counts[k]) < kRareShare * mean;
     if (!few && !rare) continue;
-    balanced = false;
     HealthFinding finding{.check = "rare-classes",
                           .level = HealthFinding::Level::kWarning,
                           .title = fmt::format("Class too rare: {}", facts.categories[k - 1]),
@@ -87,14 +118,15 @@ void check_classes(const HealthFacts& facts, std::vector<HealthFinding>& finding
       finding.text = fmt::format(
           "{} objects of it are seen, where a class has {:.0f} on average. Raise its count, or the "
           "number of frames.",
-          counts[k], mean);
+          grouped(counts[k]), mean);
     }
     for_each_seen(facts.table, [&](std::size_t frame, std::size_t i) {
       if (facts.table.objects.category[i] == k) note_frame(facts.table, frame, finding);
     });
     findings.push_back(std::move(finding));
   }
-  if (balanced) {
+  join_many(first, "Classes too rare", findings);
+  if (findings.size() == first) {
     findings.push_back({"rare-classes",
                         HealthFinding::Level::kGood,
                         "No class is too rare",
@@ -122,11 +154,10 @@ void check_sizes(const HealthFacts& facts, std::vector<HealthFinding>& findings)
     ++of_class.all;
     of_class.small += is_small(i) ? 1U : 0U;
   });
-  bool large = true;
+  const std::size_t first = findings.size();
   for (std::size_t k = 1; k < sizes.size(); ++k) {
     const double share = share_of(sizes[k].small, sizes[k].all);
     if (share <= kSmallShare) continue;
-    large = false;
     HealthFinding finding{
         "small-boxes",
         HealthFinding::Level::kWarning,
@@ -134,7 +165,7 @@ void check_sizes(const HealthFacts& facts, std::vector<HealthFinding>& findings)
         fmt::format(
             "{} of its {} boxes ({}) have a side below {} px. Move the camera nearer, raise "
             "the resolution, or leave them out of exports with --min-pixels.",
-            sizes[k].small, sizes[k].all, percent(share), kSmallSide),
+            grouped(sizes[k].small), grouped(sizes[k].all), percent(share), kSmallSide),
         {},
         facts.categories[k - 1]};
     for_each_seen(facts.table, [&](std::size_t frame, std::size_t i) {
@@ -142,7 +173,8 @@ void check_sizes(const HealthFacts& facts, std::vector<HealthFinding>& findings)
     });
     findings.push_back(std::move(finding));
   }
-  if (large && objects.size() > 0) {
+  join_many(first, "Boxes too small", findings);
+  if (findings.size() == first && objects.size() > 0) {
     findings.push_back(
         {"small-boxes",
          HealthFinding::Level::kGood,
@@ -168,8 +200,8 @@ void check_visibility(const HealthFacts& facts, std::vector<HealthFinding>& find
   if (all == 0) return;
   const double share = share_of(hidden, all);
   finding.text =
-      fmt::format("{} of {} objects ({}) show less than a tenth of their silhouette{}", hidden, all,
-                  percent(share),
+      fmt::format("{} of {} objects ({}) show less than a tenth of their silhouette{}",
+                  grouped(hidden), grouped(all), percent(share),
                   share > kHiddenShare ? ". Exports leave them out with --min-visible 0.1." : ".");
   if (share <= kHiddenShare) {
     finding.level = HealthFinding::Level::kGood;
@@ -194,8 +226,8 @@ void check_empty_frames(const HealthFacts& facts, std::vector<HealthFinding>& fi
   }
   if (all == 0) return;
   const double share = share_of(empty, all);
-  finding.text =
-      fmt::format("{} of {} frames ({}) show no object with a class.", empty, all, percent(share));
+  finding.text = fmt::format("{} of {} frames ({}) show no object with a class.", grouped(empty),
+                             grouped(all), percent(share));
   if (share > kEmptyShare) {
     finding.level = HealthFinding::Level::kWarning;
     finding.title = "Many frames show nothing";
@@ -224,8 +256,8 @@ void check_exposure(const HealthFacts& facts, std::vector<HealthFinding>& findin
   const double share = share_of(dark + bright, all);
   finding.title = share > kExtremeShare ? "Pictures are nearly black or nearly white"
                                         : "Pictures are well exposed";
-  finding.text =
-      fmt::format("{} of {} pictures are nearly black, and {} nearly white.", dark, all, bright);
+  finding.text = fmt::format("{} of {} pictures are nearly black, and {} nearly white.",
+                             grouped(dark), grouped(all), grouped(bright));
   if (share <= kExtremeShare) {
     finding.level = HealthFinding::Level::kGood;
     finding.frames.clear();
@@ -246,30 +278,30 @@ void check_duplicates(const HealthFacts& facts, std::vector<HealthFinding>& find
     finding.text = "No two show the same objects in the same places and colours.";
   } else {
     finding.level = HealthFinding::Level::kWarning;
-    finding.title = fmt::format("{} near-duplicate frames", repeated);
+    finding.title = counted(repeated, "near-duplicate frame");
     finding.text = fmt::format(
-        "They show the same objects in the same places{} as another frame, in {} groups. Draw more "
+        "They show the same objects in the same places{} as another frame, in {}. Draw more "
         "anew for each frame.",
-        facts.has_pictures ? " and colours" : "", facts.duplicates.size());
+        facts.has_pictures ? " and colours" : "", counted(facts.duplicates.size(), "group"));
   }
   findings.push_back(std::move(finding));
 }
 
 /// Frames of a duplicate group that are in two splits of one export.
-std::int64_t leaked_duplicates(const HealthFacts& facts, const std::string& format) {
+std::size_t leaked_duplicates(const HealthFacts& facts, const std::string& format) {
   std::map<std::int64_t, std::string> split_of;
   for (const SplitScenes& split : facts.splits) {
     if (split.format != format) continue;
     for (const std::int64_t frame : split.frames) split_of[frame] = split.split;
   }
-  std::int64_t leaked = 0;
+  std::size_t leaked = 0;
   for (const std::vector<std::size_t>& group : facts.duplicates) {
     std::set<std::string> splits;
     for (const std::size_t place : group) {
       const auto found = split_of.find(static_cast<std::int64_t>(facts.table.frames.index[place]));
       if (found != split_of.end()) splits.insert(found->second);
     }
-    leaked += splits.size() > 1 ? 1 : 0;
+    leaked += splits.size() > 1 ? 1U : 0U;
   }
   return leaked;
 }
@@ -289,20 +321,20 @@ void check_splits(const HealthFacts& facts, std::vector<HealthFinding>& findings
       ++leaking;
       if (first < 0) first = scene;
     }
-    const std::int64_t duplicates = leaked_duplicates(facts, format);
+    const std::size_t duplicates = leaked_duplicates(facts, format);
     HealthFinding finding{"leaking-splits", HealthFinding::Level::kGood, {}, {}, {}, {}};
     finding.title = fmt::format("Splits of {} share no scene", format);
-    finding.text = fmt::format("{} scenes, each in one split.", scenes.size());
+    finding.text = counted(scenes.size(), "scene") + ", each in one split.";
     if (leaking > 0 || duplicates > 0) {
       finding.level = HealthFinding::Level::kWarning;
       finding.title = fmt::format("Splits of {} leak", format);
       finding.text =
           leaking > 0
               ? fmt::format(
-                    "{} scenes are in more than one split, first scene {}: what "
-                    "is validated on was trained on.",
-                    leaking, first)
-              : fmt::format("{} groups of near-duplicates are in more than one split.", duplicates);
+                    "In more than one split: {}, the first is scene {}. What is validated "
+                    "on was trained on.",
+                    counted(leaking, "scene"), first)
+              : counted(duplicates, "group") + " of near-duplicates in more than one split.";
     }
     findings.push_back(std::move(finding));
   }

@@ -46,13 +46,13 @@ const axis = (title, more = {}) => ({
 const countAxis = (title) => axis(title, { beginAtZero: true, ticks: { precision: 0, maxTicksLimit: 6 } });
 
 const legend = (shown) => ({
-  display: shown, position: 'top', align: 'end', labels: { boxWidth: 12, boxHeight: 12, usePointStyle: false },
+  display: shown, position: 'top', align: 'end', labels: { boxWidth: 14, boxHeight: 8, usePointStyle: true },
 });
 
 // Bars of all, over them those of the selection, and where it is known what was to be expected.
-function barConfig({ labels, all, some, expected, x, y, horizontal = false, tooltip, colors, gapless = false }) {
+function barConfig({ labels, all, some, expected, x, y, horizontal = false, tooltip, title, colors, gapless = false }) {
   const bar = (label, values, color, order) => ({
-    label, data: values, backgroundColor: color, order, grouped: false, categoryPercentage: gapless ? 1 : 0.86,
+    label, data: values, pointStyle: 'rect', backgroundColor: color, order, grouped: false, categoryPercentage: gapless ? 1 : 0.86,
     barPercentage: gapless ? 0.96 : 0.9,
   });
   const datasets = [bar('all frames', all, some ? theme.all : colors ?? theme.selection, 3)];
@@ -60,10 +60,9 @@ function barConfig({ labels, all, some, expected, x, y, horizontal = false, tool
   if (expected) {
     datasets.push({
       type: 'line', label: 'intended', data: expected, borderColor: theme.expected, backgroundColor: theme.expected,
-      borderWidth: 2, pointRadius: gapless ? 0 : 3, pointStyle: 'line', stepped: gapless ? 'middle' : false,
+      borderWidth: 2, pointRadius: gapless ? 0 : 5, pointStyle: gapless ? 'line' : 'rectRot', stepped: gapless ? 'middle' : false,
       showLine: gapless, order: 1,
     });
-    if (!gapless) Object.assign(datasets.at(-1), { pointStyle: 'rectRot', pointRadius: 4 });
   }
   const value = horizontal ? 'x' : 'y';
   return {
@@ -77,18 +76,26 @@ function barConfig({ labels, all, some, expected, x, y, horizontal = false, tool
       },
       plugins: {
         legend: legend(datasets.length > 1),
-        tooltip: { callbacks: { label: (item) => tooltip?.(item) ?? `${item.dataset.label}: ${number(item.parsed[value], 4)}` } },
+        tooltip: { callbacks: { title: title ?? ((items) => items[0].label), label: (item) => tooltip?.(item) ?? `${item.dataset.label}: ${number(item.parsed[value], 4)}` } },
       },
     },
   };
 }
 
-// Bins between least and most; the label of a bin is its middle.
+// About n bins between round numbers.
 function bins(least, most, n) {
-  const width = (most - least) / n || 1;
-  return Array.from({ length: n + 1 }, (_, i) => least + i * width);
+  const span = most - least || 1;
+  const rough = span / n;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * [1, 2, 2.5, 5, 10].find((each) => each * power >= rough * 0.999);
+  const first = Math.floor(least / step + 1e-9) * step;
+  const edges = [];
+  for (let i = 0; i === 0 || edges.at(-1) < most - 1e-9 * span; ++i) edges.push(first + i * step);
+  return edges.length > 1 ? edges : [first, first + step];
 }
-const binLabels = (edges) => edges.slice(0, -1).map((edge, i) => number((edge + edges[i + 1]) / 2, 3));
+// A bin is called by where it begins.
+const binLabels = (edges) => edges.slice(0, -1).map((edge) => number(Math.abs(edge) < 1e-9 * Math.abs(edges.at(-1)) ? 0 : edge, 4));
+const binTitle = (edges, unit) => (items) => `${number(edges[items[0].dataIndex], 4)} – ${number(edges[items[0].dataIndex + 1], 4)} ${unit}`;
 function binOf(edges, x) {
   const last = edges.length - 2;
   if (!(x >= edges[0] && x <= edges[last + 1])) return -1;
@@ -110,14 +117,14 @@ function countedBins(edges, each) {
   return { all, some };
 }
 
-function histogramFigure({ title, note, edges, each, x, y = 'objects' }) {
+function histogramFigure({ title, note, edges, each, x, y = 'objects', centred = false }) {
   const { all, some } = countedBins(edges, each);
   const n = all.reduce((sum, value) => sum + value, 0);
   const m = some.reduce((sum, value) => sum + value, 0);
   const told = isFiltered() ? `${count(m)} of ${count(n)} ${y}` : `${count(n)} ${y}`;
   if (n === 0) return card(title, note, emptyState('Nothing to count', 'No finished frame has a value for this.'));
   return figure(title, `${told}${note ? ` · ${note}` : ''}`, `${title}: histogram of ${told}`, 220, () => barConfig({
-    labels: binLabels(edges), all, some: isFiltered() ? some : null, x, y, gapless: true,
+    labels: binLabels(centred ? edges.map((edge, i) => (edge + (edges[i + 1] ?? edge)) / 2) : edges), all, some: isFiltered() ? some : null, x, y, gapless: true, title: centred ? undefined : binTitle(edges, x.split(', ')[1] ?? ''),
   }));
 }
 

@@ -34,13 +34,13 @@ function objectsTable(frame, repaint) {
     });
     rows.push({
       attributes: { class: isSeen(i) ? null : 'unseen', onmouseenter: () => repaint(k), onmouseleave: () => repaint() },
-      cells: [mark, String(objects.id[i]), named(data.names[objects.name[i]]), objects.category[i] === 0 ? el('span', { class: 'note' }, 'distractor') : named(categories[objects.category[i] - 1]),
-        named(data.assets[objects.asset[i]]), count(objects.area_px[i]), share(objects.visible_permille, i), share(objects.truncation_permille, i),
-        isSeen(i) ? `${objects.x[i]}, ${objects.y[i]}, ${objects.width[i]} × ${objects.height[i]}` : 'not seen', number(objects.distance_m[i])],
+      cells: [mark, String(objects.id[i]), el('span', { title: `asset ${data.assets[objects.asset[i]]}` }, named(data.names[objects.name[i]])), objects.category[i] === 0 ? el('span', { class: 'note' }, named(`${data.assets[objects.asset[i]]}, distractor`)) : named(categories[objects.category[i] - 1]),
+        count(objects.area_px[i]), share(objects.visible_permille, i), share(objects.truncation_permille, i), number(objects.distance_m[i]),
+        isSeen(i) ? `${objects.x[i]}, ${objects.y[i]}, ${objects.width[i]} × ${objects.height[i]}` : 'not seen'],
     });
   }
-  return table([{ title: '' }, { title: 'Id', numeric: true }, { title: 'Object' }, { title: 'Class' }, { title: 'Asset' }, { title: 'Seen, px', numeric: true }, { title: 'Visible', numeric: true },
-    { title: 'Cut off', numeric: true }, { title: 'Box x, y, size, px', numeric: true }, { title: 'Distance, m', numeric: true }], rows, { label: 'Objects of this frame' });
+  return table([{ title: '' }, { title: 'Id', numeric: true }, { title: 'Object' }, { title: 'Class' }, { title: 'Seen, px', numeric: true }, { title: 'Visible', numeric: true },
+    { title: 'Cut off', numeric: true }, { title: 'Far, m', numeric: true }, { title: 'Box x, y, size, px', numeric: true }], rows, { label: 'Objects of this frame' });
 }
 
 async function drawsTable(frame) {
@@ -52,7 +52,7 @@ async function drawsTable(frame) {
     if (list.length > 0) rows.push([named(variable.name), named(list.join(', ')), unitOf(variable.name)]);
   }
   if (rows.length === 0) return emptyState('No draws are known', data.draws.left_out || 'The frame is not finished, or its config has changed since.');
-  return table([{ title: 'Draw' }, { title: 'Value', numeric: true }, { title: 'Unit' }], rows, { label: 'Draws of this frame' });
+  return table([{ title: 'Draw' }, { title: 'Value' }, { title: 'Unit' }], rows, { label: 'Draws of this frame' });
 }
 
 function attemptsTable(attempts) {
@@ -62,7 +62,7 @@ function attemptsTable(attempts) {
       each.message ? el('pre', { class: 'message' }, each.message) : '–']), { label: 'Attempts at this frame' });
 }
 
-const hashRow = (label, hash) => (hash ? el('div', { class: 'hash' }, el('span', {}, label), el('code', {}, hash), copyButton(hash, label)) : null);
+const hashRow = (label, hash) => (hash ? el('div', { class: 'hash' }, el('span', {}, label), copyButton(hash, label), el('code', {}, hash)) : null);
 
 function identity(frame, details) {
   const index = frames.index[frame];
@@ -93,15 +93,17 @@ function frameView(index) {
   canvas.repaint = () => repaint();
   if (done) repaint();
   const details = el('div', {});
-  const rest = el('div', { class: 'frame-rest' });
+  const left = el('div', {});
+  const right = el('div', {});
+  const rest = el('div', { class: 'frame-rest' }, left, right);
   partOf(frame).then((part) => {
     const own = part.frames[frame % data.parts.cells];
     if (part.missing) details.append(el('p', { class: 'banner' }, `The folder “${data.parts.folder}” is not beside this page: pictures and attempts are in it.`));
     if (own?.damage) details.append(el('div', { class: 'banner bad' }, el('p', {}, 'The frame’s files are not as they were written; “resume” makes it again.'), el('pre', { class: 'message' }, own.damage)));
     if (own?.error) details.append(el('div', { class: 'banner bad' }, el('p', {}, 'The last attempt failed.'), el('pre', { class: 'message' }, own.error)));
-    rest.prepend(identity(frame, own), el('section', { class: 'card' }, el('h3', {}, 'Attempts and timings'), attemptsTable(own?.attempts ?? [])));
+    left.append(identity(frame, own), el('section', { class: 'card' }, el('h3', {}, 'Attempts and timings'), attemptsTable(own?.attempts ?? [])));
   });
-  drawsTable(frame).then((draws) => rest.append(el('section', { class: 'card' }, el('h3', {}, 'Draws'), draws)));
+  drawsTable(frame).then((draws) => right.append(el('section', { class: 'card' }, el('h3', {}, 'Draws'), draws)));
   const step = (to, text, label) => el('a', { class: 'button', href: linkTo(to), 'aria-label': label, 'aria-disabled': to < 0 ? 'true' : null }, text);
   const picture = done ? canvas : el('div', { class: 'no-picture large', style: { 'aspect-ratio': `${campaign.width} / ${campaign.height}` } }, el('span', { class: 'state-mark', 'aria-hidden': 'true' }, frames.state[frame] < DONE ? '…' : '×'), STATES[frames.state[frame]]);
   return [

@@ -34,7 +34,7 @@ function glance() {
       { class: audit && audit.grade !== 'identical' && audit.grade !== 'rounding' ? 'bad' : '' }),
     stat('Dataset hash', hash ? el('code', { title: hash }, hash.slice(0, 12)) : '–',
       hash ? copyButton(hash, 'the dataset hash') : 'known when it is complete'),
-    stat('Made with', provenance?.seedframe ? `Seedframe ${provenance.seedframe}` : '–',
+    stat('Seedframe', provenance?.seedframe ?? '–',
       provenance?.blender ? `Blender ${provenance.blender}` : campaign.has_pictures ? null : 'no Blender'));
 }
 
@@ -102,7 +102,7 @@ function classFigure() {
   return figure('Objects of each class', `seen objects${more}`, `Objects of each class: ${shown.slice(0, 12).map((k) => `${categories[k - 1]} ${all[k]}`).join(', ')}`,
     Math.max(180, 22 * shown.length + 70), () => barConfig({
       labels: shown.map((k) => (categories[k - 1].length > 24 ? `${categories[k - 1].slice(0, 23)}…` : categories[k - 1])),
-      all: shown.map((k) => all[k]), some: isFiltered() ? shown.map((k) => some[k]) : null, y: 'objects', horizontal: true,
+      all: shown.map((k) => all[k]), some: isFiltered() ? shown.map((k) => some[k]) : null, y: 'objects', horizontal: true, colors: shown.map(classColor),
       tooltip: (item) => `${item.dataset.label}: ${count(item.parsed.x)} objects, in ${count(inFrames[shown[item.dataIndex]])} frames`,
     }));
 }
@@ -128,11 +128,11 @@ function datasetFigures() {
   const logAspect = (i) => Math.log2(objects.width[i] / objects.height[i]);
   return [
     histogramFigure({ title: 'Size of boxes', note: 'side of a square of the same area', edges: bins(0, side, 32), each: of(sideOf), x: 'side, px' }),
-    histogramFigure({ title: 'Shape of boxes', note: '0 is square, 1 twice as wide as high', edges: bins(-3, 3, 31), each: of(logAspect), x: 'log₂ (width / height)' }),
+    histogramFigure({ title: 'Shape of boxes', note: '0: square, 1: twice as wide as high', edges: Array.from({ length: 25 }, (_, i) => (i - 12) / 4 - 0.125), each: of(logAspect), x: 'log₂ (width / height)', centred: true }),
     histogramFigure({ title: 'Visible share', note: 'of the whole silhouette', edges: bins(0, 100, 25), each: of(known(objects.visible_permille)), x: 'visible, %' }),
     histogramFigure({ title: 'Cut by the image’s edge', note: 'share of the silhouette outside', edges: bins(0, 100, 25), each: of(known(objects.truncation_permille)), x: 'outside, %' }),
     histogramFigure({ title: 'Distance from the camera', note: 'of the object’s origin', edges: bins(Number.isFinite(near) ? near : 0, far > near ? far : near + 1, 32), each: of((i) => objects.distance_m[i]), x: 'distance, m' }),
-    histogramFigure({ title: 'Objects in a frame', edges: most <= 40 ? Array.from({ length: most + 2 }, (_, i) => i - 0.5) : bins(-0.5, most + 0.5, 40), each: done, x: 'seen objects', y: 'frames' }),
+    histogramFigure({ title: 'Objects in a frame', edges: most <= 40 ? Array.from({ length: most + 2 }, (_, i) => i - 0.5) : bins(0, most, 40).map((edge) => edge - 0.5), each: done, x: 'seen objects', y: 'frames', centred: true }),
   ];
 }
 
@@ -174,16 +174,18 @@ function cooccurrenceCard() {
   const grid = el('div', { class: 'scrolls', tabindex: '0', role: 'region', 'aria-label': 'Classes seen together' },
     el('table', { class: 'matrix' }, el('thead', {}, el('tr', {}, el('td'), categories.slice(0, n).map((name) => el('th', { scope: 'col' }, el('span', {}, named(name)))))),
       el('tbody', {}, together.map((row, a) => el('tr', {}, el('th', { scope: 'row' }, named(categories[a])), row.map((_, b) => cell(a, b)))))));
-  return el('section', { class: 'card wide' }, el('h3', {}, 'Classes seen together'),
+  return el('section', { class: n > 8 ? 'card wide' : 'card' }, el('h3', {}, 'Classes seen together'),
     el('p', { class: 'note' }, `frames of ${count(selection.length)} in which both are seen${categories.length > n ? `; the first ${n} classes` : ''}`), grid);
 }
 
 function filmstrip() {
   const done = Array.from(selection).filter((frame) => frames.state[frame] === DONE);
-  const n = Math.min(12, done.length);
+  const inside = Math.min(1456, innerWidth - (innerWidth > 640 ? 44 : 24));
+  const n = Math.min(Math.max(2, Math.round(inside / 176)), done.length);
   if (n === 0) return null;
+  const width = Math.min(240, Math.floor((inside - 8 * (n - 1)) / n));
   const some = Array.from({ length: n }, (_, i) => done[Math.floor((i * done.length) / n)]);
-  return el('section', { class: 'strip', 'aria-label': 'Some frames' }, some.map((frame) => frameTile(frame, 150)));
+  return el('section', { class: 'strip', 'aria-label': 'Some frames' }, some.map((frame) => frameTile(frame, width)));
 }
 
 function overviewView() {

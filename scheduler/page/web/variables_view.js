@@ -45,7 +45,7 @@ function drawFigure(variable) {
     const labels = variable.names ?? (variable.numbers ? variable.numbers.map((x) => number(x, 4)) : binLabels(variable.edges));
     liveCharts.add(new Chart(canvas, barConfig({
       labels: labels.map((text) => (text.length > 22 ? `${text.slice(0, 21)}…` : text)), all, some: isFiltered() ? some : null,
-      expected: known ? variable.expected.map((share) => share * n) : null, x: unit, y: 'draws', gapless: !variable.names && !variable.numbers,
+      expected: known ? variable.expected.map((share) => share * n) : null, x: unit, y: 'draws', gapless: Boolean(variable.edges), title: variable.edges ? binTitle(variable.edges, unit) : undefined,
     })));
   });
   return holder;
