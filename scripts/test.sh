@@ -1,9 +1,9 @@
 #!/bin/sh
-# Installs what is missing, builds, and runs every test: format, module edges and lint, the unit tests
-# (also under AddressSanitizer and UndefinedBehaviorSanitizer), and the tests with the real Blender.
+# Installs what is missing, builds, and runs every test: format, module edges and lint, the pages in a browser, the unit
+# tests (also under AddressSanitizer and UndefinedBehaviorSanitizer), and the tests with the real Blender.
 #
 #   scripts/test.sh            all
-#   scripts/test.sh unit       unit tests of the release build only, and exports read by small programs from PyPI
+#   scripts/test.sh unit       unit tests of the release build only, exports read by small programs from PyPI, pages in a browser
 #   scripts/test.sh versions   what depends on Blender's version, with 4.2 and 5.0, and with 5.2 where there is a Python 3.13
 set -u
 cd "$(dirname "$0")/.."
@@ -66,6 +66,24 @@ read_exports() { # name of the environment and of the test, what makes it, what 
   fi
 }
 
+browse_pages() { # by tests/browser: in Debian's Chromium, driven by packages of npm that a lock file names
+  echo "== pages in Chromium"
+  if ! tests/browser/install.sh; then
+    skipped=$((skipped + 1))
+    echo "SKIPPED: pages in Chromium, which could not be installed (why stands above)"
+    return
+  fi
+  log=$(mktemp)
+  node --test --test-reporter=tap tests/browser/*_test.mjs >"$log" 2>&1
+  good=$(sed -n 's/^# pass \([0-9]*\)$/\1/p' "$log")
+  bad=$(sed -n 's/^# fail \([0-9]*\)$/\1/p' "$log")
+  [ "${good:-0}" -gt 0 ] || bad=$((${bad:-0} + 1))
+  [ "${bad:-0}" = 0 ] || cat "$log"
+  passed=$((passed + ${good:-0}))
+  failed=$((failed + ${bad:-0}))
+  rm -f "$log"
+}
+
 # More at once than there are cores: many tests wait for a process or for a timeout to pass.
 at_once=$(($(nproc) * 3 / 2))
 if ! configure release || ! ninja --quiet -C build/release all; then
@@ -89,6 +107,7 @@ else
   echo "== unit tests"
   run_tests release unit "$at_once"
   read_exports clients client_wheels.sh "pycocotools and webdataset"
+  browse_pages
 fi
 if [ "$what" = all ]; then
   step "format (clang-format)" sh -c \

@@ -54,10 +54,9 @@ function healthItem(finding) {
 function healthCard() {
   const order = { warning: 0, note: 1, good: 2 };
   const findings = [...data.health];
-  const states = [['failed', 'failed'], ['quarantined', 'are quarantined']];
-  for (const [state, words] of states) {
+  for (const state of ['failed', 'quarantined']) {
     if (summary[state] > 0) {
-      findings.push({ level: 'warning', title: `${plural(summary[state], 'frame')} ${words}`, text: 'The dataset is not complete. “Run” has their last words.' });
+      findings.push({ level: 'warning', title: `${plural(summary[state], 'frame')} ${state}`, text: 'The dataset is not complete. “Run” has their last words.' });
     }
   }
   if (summary.pending > 0) {
