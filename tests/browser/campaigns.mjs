@@ -51,7 +51,7 @@ constraints:
 ${more}`;
 
 // Labels only; the folder's name is to be text as well.
-export const labelled = () => submit(`labels <b>of</b> "it's"`, config('labelled', 'labels: geometry\n'));
+export const labelled = () => submit(`labels <b onclick=x> "it's"`, config('labelled', 'labels: geometry\n'));
 
 // Pictures by the fake Blender: frame 2 crashes, frame 4 fails, frame 7 is damaged afterwards, frame 9 comes at the second attempt.
 export function pictured() {
