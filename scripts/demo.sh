@@ -1,6 +1,6 @@
 #!/bin/sh
-# The main job from a bare Debian 12: installs, builds, renders configs/parts.yaml, exports it, and says where to
-# look. Run again, it renders nothing that is there.
+# The main job from a bare Debian 12: installs, builds, renders configs/parts.yaml, exports it, makes a page about
+# it, and says where to look. Run again, it renders nothing that is there.
 set -eu
 cd "$(dirname "$0")/.."
 scripts/setup.sh
@@ -21,10 +21,12 @@ $seedframe export "$campaign" --format coco --format coco-polygon --format yolo-
   --format yolo-segment --split train=0.8,val=0.2
 $seedframe status "$campaign"
 $seedframe show "$campaign" --sheet 4x4 --layers image,image+instances -o "$campaign.jpg"
+$seedframe report "$campaign"
 cat <<END
 
 Look at
   $campaign.jpg                                eight frames, and below each its masks
+  $campaign/report.html                            a page about all of it: open it in a browser
   $campaign/frames/000/000000/image.png            the first image; beside it its masks, labels and frame spec
   $campaign/exports/coco/annotations/              COCO, one file a split
   $campaign/exports/yolo-segment/data.yaml         YOLO, ready for a trainer
