@@ -3,7 +3,7 @@ set(web ${PROJECT_SOURCE_DIR}/scheduler/page/web)
 find_file(CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js REQUIRED NO_DEFAULT_PATH)
 # In the order in which they are read.
 set(page_scripts data dom theme filter charts picture overview grid filter_panel frame_view variables_view
-    run_view main)
+    run_view live main)
 set(page_files kTemplate=${web}/index.html kStyle=${web}/page.css kChart=${CHART_JS}
     kChartLicense=${web}/chart_license.txt)
 foreach(script ${page_scripts})

@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
   seedframe::add_status_verb(app, on_selected);
   seedframe::add_explain_verb(app, with_home);
   seedframe::add_report_verb(app, with_home);
+  seedframe::add_serve_verb(app, with_home);
   seedframe::add_render_verb(app, with_home);
   seedframe::add_preview_verb(app, with_home);
   seedframe::add_show_verb(app, with_home);

@@ -28,6 +28,7 @@ void add_bench_verb(CLI::App& app, const OnSelected& on_selected);
 void add_compare_verb(CLI::App& app, const OnSelected& on_selected);
 void add_doctor_verb(CLI::App& app, const OnSelected& on_selected);
 void add_report_verb(CLI::App& app, const OnSelected& on_selected);
+void add_serve_verb(CLI::App& app, const OnSelected& on_selected);
 void add_manual_verb(CLI::App& app, const OnSelected& on_selected);
 
 }  // namespace seedframe

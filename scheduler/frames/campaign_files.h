@@ -28,6 +28,8 @@ class CampaignFiles {
   std::filesystem::path worker_log(int worker) const;
   /// The last words of a worker that a frame has cost.
   std::filesystem::path crash_log(std::int64_t frame, int attempt) const;
+  /// What runs print that `seedframe serve` has started.
+  std::filesystem::path serve_log() const { return logs() / "serve.log"; }
   std::filesystem::path exports() const { return root_ / "exports"; }
   /// What exports need of the config, and of an asset.
   std::filesystem::path kept_inputs() const { return root_ / "inputs" / "inputs.json"; }

@@ -78,8 +78,10 @@ std::vector<std::string> arguments_of(const WorkerOptions& options) {
   return arguments;
 }
 
-std::vector<std::string> whole_environment(const WorkerOptions& options) {
+/// `number` tells who looks at processes which worker this one is.
+std::vector<std::string> whole_environment(const WorkerOptions& options, int number) {
   std::map<std::string, std::string> changes = options.environment;
+  changes["SEEDFRAME_WORKER"] = std::to_string(number);
   changes.merge(environment_of(options.conditions, options.preload));
   return worker_environment({changes.begin(), changes.end()});
 }
@@ -93,7 +95,7 @@ Result<std::shared_ptr<LocalWorker>> LocalWorker::start(const WorkerOptions& opt
   if (Status made = pipes.make(); !made) return forward_error(made);
   ChildCommand child;
   child.arguments = arguments_of(options);
-  child.environment = whole_environment(options);
+  child.environment = whole_environment(options, number);
   child.output = pipes.log[1];
   child.channel = pipes.channel[1];
   child.cpu = next_start_cpu();

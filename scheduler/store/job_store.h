@@ -175,6 +175,12 @@ class JobStore {
   /// The newest errors and crashes, newest first.
   Result<std::vector<AttemptRow>> recent_failures(int most) const;
   Result<RunProgress> run_progress() const;
+  /// The newest good attempts, newest first.
+  Result<std::vector<AttemptRow>> recent_done(int most) const;
+  /// Changes whenever another process writes, and with nothing else: cheap to ask.
+  Result<std::int64_t> data_version() const;
+  /// Process that began the last run; none: there was none.
+  Result<std::optional<std::int64_t>> last_process() const;
   /// Over all frames that are done and were compared with their twins.
   Result<TwinSummary> twin_summary() const;
   /// Mean over the newest `most` attempts that are done; none if there are none.

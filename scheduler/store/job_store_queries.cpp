@@ -99,6 +99,19 @@ AttemptRow attempt_row(const Statement& row) {
       .provenance = row.text(9)};
 }
 
+/// Whose outcome is that, newest first.
+Result<std::vector<AttemptRow>> newest_attempts(const sqlite::Connection& connection,
+                                                const char* outcome, int most) {
+  const std::string sql = std::string(kAttemptColumns) + "WHERE outcome " + outcome +
+                          " ORDER BY started DESC, frame DESC LIMIT ?";
+  Statement select(connection, sql.c_str());
+  select.bind(1, std::int64_t{most});
+  std::vector<AttemptRow> rows;
+  while (select.step()) rows.push_back(attempt_row(select));
+  if (Status done = select.status(); !done) return forward_error(done);
+  return rows;
+}
+
 Status hash_frames(const JobStore& store, DatasetHasher& hasher) {
   return store.for_each_frame([&](const FrameRow& row) -> Status {
     const bool done = row.state == FrameState::kDone;
@@ -234,15 +247,26 @@ Result<std::vector<std::int64_t>> JobStore::done_by_worker_before(const AttemptR
 }
 
 Result<std::vector<AttemptRow>> JobStore::recent_failures(int most) const {
-  const std::string sql =
-      std::string(kAttemptColumns) +
-      "WHERE outcome IN ('error', 'crash') ORDER BY started DESC, frame DESC LIMIT ?";
-  Statement select(database_->connection, sql.c_str());
-  select.bind(1, std::int64_t{most});
-  std::vector<AttemptRow> rows;
-  while (select.step()) rows.push_back(attempt_row(select));
+  return newest_attempts(database_->connection, "IN ('error', 'crash')", most);
+}
+
+Result<std::vector<AttemptRow>> JobStore::recent_done(int most) const {
+  return newest_attempts(database_->connection, "= 'done'", most);
+}
+
+Result<std::int64_t> JobStore::data_version() const {
+  Statement select(database_->connection, "PRAGMA data_version");
+  const std::int64_t version = select.step() ? select.integer(0) : 0;
   if (Status done = select.status(); !done) return forward_error(done);
-  return rows;
+  return version;
+}
+
+Result<std::optional<std::int64_t>> JobStore::last_process() const {
+  Statement select(database_->connection, "SELECT process FROM runs ORDER BY run DESC LIMIT 1");
+  std::optional<std::int64_t> process;
+  if (select.step()) process = select.integer(0);
+  if (Status done = select.status(); !done) return forward_error(done);
+  return process;
 }
 
 Result<RunProgress> JobStore::run_progress() const {

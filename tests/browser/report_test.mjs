@@ -5,7 +5,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { HOSTILE, allFailed, hardlyBegun, labelled, labelsOf, report, run, withFailures } from './campaigns.mjs';
-import { clean, drawn, fileAddress, open, overflows, picture, scrollThrough, seriousFaults, startBrowser, stopBrowser, visit } from './visitor.mjs';
+import { clean, drawn, fileAddress, open, overflows, picture, scrollThrough, seriousFaults, startBrowser, stopBrowser, until, visit } from './visitor.mjs';
 
 const folders = {};
 const reports = {};
@@ -56,24 +56,24 @@ test('filters of objects hold for one and the same object', async () => {
   assert.match(await counted(page), /^12 frames/);
   await page.getByRole('checkbox', { name: HOSTILE.script }).check();
   const ofClass = objectsThat(labels, (each) => each.category === 2);
-  await page.waitForFunction((n) => document.getElementById('selection-count').textContent.startsWith(`${n} of 12`), ofClass);
+  await until(page, (n) => document.getElementById('selection-count').textContent.startsWith(`${n} of 12`), ofClass);
   await page.getByLabel('Visible, most, %').fill('90');
   await page.getByLabel('Visible, most, %').press('Enter');
   const hidden = objectsThat(labels, (each) => each.category === 2 && Math.round(1000 * each.visible_fraction) <= 900);
   assert.ok(hidden > 0 && hidden < ofClass, `${hidden} of ${ofClass} frames: the filter has something to do`);
-  await page.waitForFunction((n) => document.getElementById('selection-count').textContent.startsWith(`${n} of 12`), hidden);
+  await until(page, (n) => document.getElementById('selection-count').textContent.startsWith(`${n} of 12`), hidden);
   assert.equal(await page.locator('.tile').count(), hidden);
   await page.getByRole('button', { name: /visible ≤ 90/ }).click();
-  await page.waitForFunction((n) => document.getElementById('selection-count').textContent.startsWith(`${n} of 12`), ofClass);
+  await until(page, (n) => document.getElementById('selection-count').textContent.startsWith(`${n} of 12`), ofClass);
   await page.getByRole('button', { name: 'Remove all filters' }).last().click();
-  await page.waitForFunction(() => document.getElementById('selection-count').textContent === '12 frames');
+  await until(page, () => document.getElementById('selection-count').textContent === '12 frames');
   clean(faults);
   await close();
 });
 
 test('filters of sizes, scenes, states and draws', async () => {
   const { page, faults, close } = await visit(fileAddress(reports.failing, '#frames'));
-  const passes = (n) => page.waitForFunction((k) => document.getElementById('selection-count').textContent.startsWith(`${k} of 12`), n);
+  const passes = (n) => until(page, (k) => document.getElementById('selection-count').textContent.startsWith(`${k} of 12`), n);
   const fill = async (label, text) => { await page.getByLabel(label, { exact: true }).fill(text); await page.getByLabel(label, { exact: true }).press('Enter'); };
   await fill('Scene, least', '3');
   await passes(3);
@@ -117,7 +117,7 @@ test('a frame opens with its objects, draws, attempts and command', async () => 
   await page.waitForTimeout(150);
   assert.notEqual(await drawn(page, 'canvas.large'), before, 'the object is marked');
   await page.locator('body').press('ArrowRight');
-  await page.waitForFunction(() => document.querySelector('h2').textContent === 'Frame 6');
+  await until(page, () => document.querySelector('h2').textContent === 'Frame 6');
   await page.locator('body').press('Escape');
   await page.waitForSelector('#content[data-view="frames"]');
   clean(faults);
@@ -158,7 +158,7 @@ test('charts are drawn, and follow the filters', async () => {
   assert.match(await page.getByText('Size of boxes').locator('..').textContent(), /\d+ of \d+ objects/);
   await open(page, '#variables');
   await page.getByLabel('Find a variable').fill('distance');
-  await page.waitForFunction(() => /^1 of \d+ variables/.test(document.querySelector('.toolbar .count').textContent));
+  await until(page, () => /^1 of \d+ variables/.test(document.querySelector('.toolbar .count').textContent));
   assert.ok((await page.locator('#content').textContent()).includes('Constraints'));
   clean(faults);
   await close();

@@ -14,7 +14,7 @@ export async function startBrowser() {
 }
 export const stopBrowser = () => browser?.close();
 
-export async function visit(address, { width = 1280, height = 900, scheme = 'light', allowed = [] } = {}) {
+export async function visit(address, { width = 1280, height = 900, scheme = 'light', allowed = [], wait = true } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, bypassCSP: false });
   const page = await context.newPage();
   const faults = [];
@@ -27,7 +27,7 @@ export async function visit(address, { width = 1280, height = 900, scheme = 'lig
     if (!own && !allowed.some((prefix) => url.startsWith(prefix))) faults.push(`request: ${url.slice(0, 120)}`);
   });
   await page.goto(address);
-  await page.waitForSelector('html[data-ready]', { timeout: 20_000 });
+  if (wait) await page.waitForSelector('html[data-ready]', { timeout: 20_000 });
   return { page, faults, close: () => context.close() };
 }
 
@@ -36,6 +36,15 @@ export const fileAddress = (file, view = '') => `file://${encodeURI(file).replac
 export async function open(page, view) {
   await page.evaluate((hash) => { location.hash = hash; }, view);
   await page.waitForSelector(`#content[data-view="${view.split('/')[0].slice(1)}"]`);
+}
+
+// Until it holds in the page. (Playwright's waitForFunction evaluates text there, which the page's policy forbids.)
+export async function until(page, holds, argument, patience_ms = 15_000) {
+  const end = Date.now() + patience_ms;
+  while (!await page.evaluate(holds, argument)) {
+    assert.ok(Date.now() < end, `in vain: ${holds}`);
+    await page.waitForTimeout(50);
+  }
 }
 
 // Everything that waits to be scrolled to is made.

@@ -10,7 +10,7 @@ function header() {
   const links = Object.entries(VIEWS).map(([key, [title]]) => el('a', { href: `#${key}`, 'data-view': key }, title));
   const themes = el('button', { type: 'button', class: 'quiet', onclick: toggleTheme, 'aria-label': 'Light or dark' }, el('span', { 'aria-hidden': 'true' }, '◐'));
   document.getElementById('top').replaceChildren(
-    el('div', { class: 'bar' }, el('h1', {}, named(campaign.name || campaign.folder), el('span', { class: `tag ${complete ? 'good' : summary.failed + summary.quarantined > 0 ? 'bad' : ''}` }, state)), el('nav', { 'aria-label': 'Views' }, links), themes),
+    el('div', { class: 'bar' }, el('h1', {}, named(campaign.name || campaign.folder), data.live ? null : el('span', { class: `tag ${complete ? 'good' : summary.failed + summary.quarantined > 0 ? 'bad' : ''}` }, state)), el('nav', { 'aria-label': 'Views' }, links), themes),
     el('div', { id: 'live', hidden: true }),
     el('div', { id: 'chips', hidden: true, role: 'group', 'aria-label': 'Filters that are set' }));
 }
@@ -70,7 +70,7 @@ async function start() {
   addEventListener('keydown', keys);
   show();
   document.documentElement.dataset.ready = 'true';
-  globalThis.startLive?.();
+  startLive();
 }
 
 start().catch((error) => {
