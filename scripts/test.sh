@@ -4,6 +4,8 @@
 #
 #   scripts/test.sh            all
 #   scripts/test.sh unit       unit tests of the release build only, exports read by small programs from PyPI, pages in a browser
+#   scripts/test.sh clients    exports read and trained on by torchvision, torchmetrics, webdataset and ultralytics, in an
+#                              environment of 6 GB that is made for it
 #   scripts/test.sh versions   what depends on Blender's version, with 4.2 and 5.0, and with 5.2 where there is a Python 3.13
 set -u
 cd "$(dirname "$0")/.."
@@ -103,6 +105,9 @@ if [ "$what" = all ]; then
 fi
 if [ "$what" = versions ]; then
   for version in 4.2 5.0 5.2; do run_version "$version"; done
+elif [ "$what" = clients ]; then
+  read_exports clients client_wheels.sh "pycocotools and webdataset"
+  read_exports trainers trainer_wheels.sh "torchvision, torchmetrics, webdataset and ultralytics"
 else
   echo "== unit tests"
   run_tests release unit "$at_once"

@@ -24,7 +24,7 @@ image: {ocio_config: /usr/share/blender/datafiles/colormanagement/config.ocio}
 """
 
 
-def export(program, folder, formats, *options):
+def export(program, folder, formats, *options, scenes=3):
     """The campaign in `folder`/c, its exports in `folder`/out."""
 
     def seedframe(*arguments):
@@ -33,7 +33,7 @@ def export(program, folder, formats, *options):
 
     (folder / "parts.yaml").write_text(PARTS)
     blender = str(HOME / "tests" / "fake_blender" / "fake_blender.py")
-    seedframe("submit", "parts.yaml", "-o", "c", "--blender", blender, "--quiet")
+    seedframe("submit", "parts.yaml", "-o", "c", "--blender", blender, "--quiet", "--set", f"scenes={scenes}")
     seedframe("export", "c", "-o", "out", *options, *(word for name in formats for word in ("--format", name)))
 
 
