@@ -193,6 +193,7 @@ class GltfParser {
     }
     auto corners = corners_of(*positions, world, welder);
     add_uvs(attributes, corners, place);
+    add_colors(attributes, corners, place);
     list_what_is_not_kept(primitive, attributes);
     auto order = corner_order(primitive, corners.size(), place);
     if (!order) return forward_error(order);
@@ -242,9 +243,26 @@ class GltfParser {
     }
   }
 
+  // Linear; three numbers, or four with an opacity.
+  void add_colors(const Json& attributes, std::vector<PolygonCorner>& corners,
+                  const std::string& place) {
+    if (!attributes.contains("COLOR_0")) return;
+    const auto index = gltf_index(attributes, "COLOR_0");
+    for (const std::uint64_t components : {3, 4}) {
+      const auto colors =
+          index ? file_.read_accessor(*index, components) : Result<GltfFile::Numbers>();
+      if (!index || !colors || colors->count != corners.size()) continue;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double* rgb = colors->values.data() + components * i;
+        corners[i].color = code_of_linear({rgb[0], rgb[1], rgb[2]});
+      }
+      return;
+    }
+    builder_.drop("colours (COLOR_0) that cannot be read are left out", place);
+  }
+
   void list_what_is_not_kept(const Json& primitive, const Json& attributes) {
     if (attributes.contains("NORMAL")) builder_.not_kept(kNormals);
-    if (attributes.contains("COLOR_0")) builder_.not_kept("vertex colours");
     if (attributes.contains("TEXCOORD_1")) builder_.not_kept("UV sets beyond the first");
     if (primitive.contains("targets")) builder_.not_kept("morph targets");
   }

@@ -59,6 +59,8 @@ Status MeshBuilder::add_polygon(std::span<const PolygonCorner> corners, const st
     mesh.triangles.push_back({corners[triangle[0]].position, corners[triangle[1]].position,
                               corners[triangle[2]].position});
     mesh.triangle_slots.push_back(slot_);
+    colors_.push_back(color_of_triangle(
+        {corners[triangle[0]].color, corners[triangle[1]].color, corners[triangle[2]].color}));
     for (const std::size_t corner : triangle) {
       const std::uint32_t uv = corners[corner].uv;
       mesh.corner_uvs.push_back(uv == PolygonCorner::kNone ? std::array<float, 2>{} : uvs_[uv]);
@@ -90,6 +92,10 @@ void MeshBuilder::stored_as(float coordinate) {
 Result<FileMesh> MeshBuilder::finish(const std::string& expected) {
   if (out_.mesh.triangles.empty()) {
     return fail(ErrorKind::kInput, "{} has no polygons: expected {}", file_, expected);
+  }
+  if (!give_colors_slots(colors_, out_)) {
+    not_kept(fmt::format("colours of vertices and faces (more than {} different ones)",
+                         kMostColorSlots));
   }
   for (const auto& [what, dropped] : dropped_) {
     out_.dropped.push_back(dropped.count == 1 ? fmt::format("{}: at {}", what, dropped.first)

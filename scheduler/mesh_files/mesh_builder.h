@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "mesh_files/color_slots.h"
 #include "mesh_files/file_mesh.h"
 
 namespace seedframe {
@@ -31,6 +32,7 @@ struct PolygonCorner {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t position = kNone;
   std::uint32_t uv = kNone;  ///< kNone: UV (0, 0)
+  ColorCode color = kNoColor;
 };
 
 /// Collects polygons as triangles. Errors (kInput) begin with the file's name and the place that
@@ -82,6 +84,7 @@ class MeshBuilder {
   std::vector<std::array<float, 2>> uvs_;
   std::map<std::string, std::uint32_t> slots_;
   std::uint32_t slot_ = 0;
+  std::vector<ColorCode> colors_;  ///< of each triangle
   std::map<std::string, Dropped, std::less<>> dropped_;
   float largest_ = 0.0f;                 // of stored_as
   std::vector<Eigen::Vector3d> points_;  // of the polygon at hand

@@ -100,11 +100,14 @@ class ObjParser {
   }
 
   Status parse_position(std::string_view line) {
-    std::array<double, 3> position{};
+    std::array<double, 3> position{}, color{};
     std::size_t found = 0;
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-      if (found++ >= position.size()) continue;  // a weight or a colour may follow
       const auto value = parse_number<double>(word);
+      if (found++ >= position.size()) {  // a weight or a colour may follow
+        if (found <= 6) color[found - 4] = value.value_or(std::nan(""));
+        continue;
+      }
       if (!value || !std::isfinite(static_cast<float>(*value))) {
         return fail_here("expected a finite number, found '{}'", word);
       }
@@ -113,8 +116,8 @@ class ObjParser {
     if (found < position.size()) {
       return fail_here("expected at least {} numbers, found {}", position.size(), found);
     }
-    if (found >= 6) builder_.not_kept("vertex colours");
     builder_.add_position(position);
+    colors_.push_back(found >= 6 ? code_of_srgb(color) : kNoColor);
     return {};
   }
 
@@ -153,6 +156,7 @@ class ObjParser {
     const auto position = parse_index(word.substr(0, slash), builder_.position_count(), "vertex");
     if (!position) return forward_error(position);
     corner.position = *position;
+    corner.color = colors_[*position];
     if (slash == std::string_view::npos) return corner;
     word.remove_prefix(slash + 1);
     word = word.substr(0, word.find('/'));
@@ -183,6 +187,7 @@ class ObjParser {
   std::size_t line_number_ = 0;
   std::size_t next_line_number_ = 1;
   std::vector<PolygonCorner> corners_;
+  std::vector<ColorCode> colors_;  // of positions
   MeshBuilder builder_;
   BesideFiles files_;
 };

@@ -90,6 +90,14 @@ class PlyParser {
 
   Status find_properties(const PlyElement& element) {
     list_what_is_not_kept(element);
+    color_ = {element.find({"red", "r", "diffuse_red"}),
+              element.find({"green", "g", "diffuse_green"}),
+              element.find({"blue", "b", "diffuse_blue"})};
+    if (color_[0] >= 0 && color_[1] >= 0 && color_[2] >= 0) {
+      most_ = largest_of(element.properties[static_cast<std::size_t>(color_[0])].type);
+    } else {
+      most_ = 0.0;
+    }
     if (element.name == "vertex") {
       if (builder_.position_count() > 0) {
         return builder_.fail_at("", "a second element 'vertex': expected one");
@@ -133,11 +141,7 @@ class PlyParser {
       if (element.count > 0) builder_.not_kept(fmt::format("the element '{}'", element.name));
       return;
     }
-    const bool of_vertices = element.name == "vertex";
-    if (element.find({"red", "r", "diffuse_red"}) >= 0) {
-      builder_.not_kept(of_vertices ? "vertex colours" : "colours of faces");
-    }
-    if (of_vertices && element.find({"nx"}) >= 0) builder_.not_kept(kNormals);
+    if (element.name == "vertex" && element.find({"nx"}) >= 0) builder_.not_kept(kNormals);
   }
 
   // Nothing where there is no number.
@@ -186,6 +190,27 @@ class PlyParser {
     return usable ? values[0] : std::numeric_limits<double>::quiet_NaN();
   }
 
+  /// What stands for 1 in colours of that type; 0 for types that nobody has them in.
+  static double largest_of(PlyType type) {
+    switch (type) {
+      case PlyType::kUint8:
+        return 255.0;
+      case PlyType::kUint16:
+        return 65535.0;
+      case PlyType::kFloat32:
+      case PlyType::kFloat64:
+        return 1.0;
+      default:
+        return 0.0;
+    }
+  }
+  /// kNoColor for an element without colours.
+  ColorCode color_at(const std::vector<Values>& row) const {
+    if (most_ == 0.0) return kNoColor;
+    return code_of_srgb({number_at(row, color_[0]) / most_, number_at(row, color_[1]) / most_,
+                         number_at(row, color_[2]) / most_});
+  }
+
   Status add_vertex(const std::vector<Values>& row, const std::string& place) {
     std::array<double, 3> position{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -196,6 +221,7 @@ class PlyParser {
       if (floats_) builder_.stored_as(static_cast<float>(position[axis]));
     }
     builder_.add_position(position);
+    vertex_colors_.push_back(color_at(row));
     if (uv_[0] >= 0 && uv_[1] >= 0) {
       builder_.add_uv({number_at(row, uv_[0]), number_at(row, uv_[1])}, place);
     }
@@ -208,13 +234,15 @@ class PlyParser {
     corners.reserve(indices.size());
     const std::size_t vertices = builder_.position_count();
     const bool vertex_uvs = uv_[0] >= 0 && uv_[1] >= 0;
+    const ColorCode color = color_at(row);
     for (const double index : indices) {
       if (!(index >= 0.0 && index < static_cast<double>(vertices)) || index != std::floor(index)) {
         return builder_.fail_at(place, "names vertex {}, but the file has {} (the first is 0)",
                                 index, vertices);
       }
       const auto position = static_cast<std::uint32_t>(index);
-      corners.push_back({position, vertex_uvs ? position : PolygonCorner::kNone});
+      corners.push_back({position, vertex_uvs ? position : PolygonCorner::kNone,
+                         color == kNoColor ? vertex_colors_[position] : color});
     }
     add_face_uvs(row, corners, place);
     if (slot_ >= 0) {
@@ -251,6 +279,9 @@ class PlyParser {
   bool floats_ = false;                      // coordinates are stored as 32-bit floats
   std::array<int, 3> position_{-1, -1, -1};  // places of properties in a row
   std::array<int, 2> uv_{-1, -1};
+  std::array<int, 3> color_{-1, -1, -1};  // of the element at hand
+  double most_ = 0.0;                     // stands for 1 in it; 0: it has no colours
+  std::vector<ColorCode> vertex_colors_;
   int corners_ = -1;
   int face_uvs_ = -1;
   int slot_ = -1;
