@@ -15,6 +15,7 @@
 #include "console/open_file.h"
 #include "console/say.h"
 #include "export/campaign_dataset.h"
+#include "manual/describe_command.h"
 #include "picture/campaign_sheet.h"
 #include "picture/picture_file.h"
 
@@ -223,7 +224,9 @@ void add_show_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("-o,--output", arguments->output,
                    "the picture, .png or .jpg (default: <name of the campaign>.png here)")
       ->type_name("FILE");
-  verb->add_option("--layers", arguments->layers, layers_help())->type_name("LAYERS");
+  verb->add_option("--layers", arguments->layers, layers_help())
+      ->type_name("LAYERS")
+      ->check(offers({kLayerNames.begin(), kLayerNames.end()}));
   verb->add_option("--sheet", arguments->sheet,
                    "columns and rows of tiles, such as 6x4, or columns alone, such as 6")
       ->type_name("COLUMNSxROWS");

@@ -172,7 +172,7 @@ double Canvas::width_of(const std::string& text, const TextStyle& style) {
 
 std::string Canvas::fitted(const std::string& text, double width, const TextStyle& style) {
   drawing_->set_font(style);
-  const std::string line = shown(text);
+  std::string line = shown(text);
   if (drawing_->width_of(line) <= width) return line;
   return line.substr(0, drawing_->fitting_bytes(line, width, "…")) + "…";
 }

@@ -30,7 +30,7 @@ constexpr double kBetweenEntries = 18.0;
 /// Where everything is.
 class Layout {
  public:
-  explicit Layout(const ContactSheet& sheet) : sheet_(sheet) {
+  explicit Layout(const ContactSheet& sheet) {
     const int count = static_cast<int>(sheet.tiles.size());
     columns_ = std::clamp(sheet.columns, 1, count);
     rows_ = (count + columns_ - 1) / columns_;
@@ -70,7 +70,6 @@ class Layout {
   double height(int legend_rows) const { return legend_top_ + kLegendRow * legend_rows + margin_; }
 
  private:
-  const ContactSheet& sheet_;
   int columns_ = 1, rows_ = 1, margin_ = 0;
   int tile_width_ = 1, tile_height_ = 1;
   std::vector<double> row_tops_;

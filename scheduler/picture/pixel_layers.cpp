@@ -33,7 +33,7 @@ void dim(Image<std::uint8_t>& image) {
 
 void paint_depth(const Image<float>& depth, Image<std::uint8_t>& image) {
   constexpr std::size_t kSteps = 256;
-  static const std::array<Rgb8, kSteps> kColors = [] {
+  static const std::array<Rgb8, kSteps> scale = [] {
     std::array<Rgb8, kSteps> colors{};
     for (std::size_t i = 0; i < kSteps; ++i) {
       colors[i] = color_bytes(depth_color(1.0 - static_cast<double>(i) / (kSteps - 1)));
@@ -46,7 +46,7 @@ void paint_depth(const Image<float>& depth, Image<std::uint8_t>& image) {
   for (std::size_t i = 0; i < depth.values.size(); ++i) {
     if (!is_seen(depth.values[i])) continue;
     const double share = std::clamp((depth.values[i] - (*range)[0]) / extent, 0.0, 1.0);
-    const Rgb8& color = kColors[static_cast<std::size_t>(std::lround(share * (kSteps - 1)))];
+    const Rgb8& color = scale[static_cast<std::size_t>(std::lround(share * (kSteps - 1)))];
     std::copy(color.begin(), color.end(), &image.values[3 * i]);
   }
 }

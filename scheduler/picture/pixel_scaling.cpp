@@ -10,7 +10,7 @@ namespace seedframe {
 namespace {
 
 const std::array<float, 256>& linear_light() {
-  static const std::array<float, 256> kTable = [] {
+  static const std::array<float, 256> light_by_code = [] {
     std::array<float, 256> table{};
     for (std::size_t code = 0; code < table.size(); ++code) {
       const double display = static_cast<double>(code) / 255.0;
@@ -19,20 +19,20 @@ const std::array<float, 256>& linear_light() {
     }
     return table;
   }();
-  return kTable;
+  return light_by_code;
 }
 
 /// The code whose light is nearest: between the middles of its neighbours.
 std::uint8_t code_of(float light) {
-  static const std::array<float, 255> kMiddles = [] {
+  static const std::array<float, 255> middle_light = [] {
     std::array<float, 255> middles{};
     for (std::size_t code = 0; code < middles.size(); ++code) {
       middles[code] = 0.5F * (linear_light()[code] + linear_light()[code + 1]);
     }
     return middles;
   }();
-  const auto above = std::upper_bound(kMiddles.begin(), kMiddles.end(), light);
-  return static_cast<std::uint8_t>(above - kMiddles.begin());
+  const auto above = std::upper_bound(middle_light.begin(), middle_light.end(), light);
+  return static_cast<std::uint8_t>(above - middle_light.begin());
 }
 
 /// A pixel of the shrunken image along one axis: how much of which pixels it covers.

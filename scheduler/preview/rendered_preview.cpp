@@ -44,6 +44,7 @@ class PreviewRun : public SideClient {
       if (denoise != render.denoise) jobs_.push_back({Purpose::kAllSamples, i});
       if (few_samples_ < samples_) jobs_.push_back({Purpose::kFewSamples, i});
     }
+    told_of_ = job_count();
     if (denoise != render.denoise) {
       const auto begun_at_once = 2 * static_cast<std::size_t>(setup.options.pool.workers);
       jobs_.insert(jobs_.end(), begun_at_once, {Purpose::kAgain, 0});
@@ -87,7 +88,7 @@ class PreviewRun : public SideClient {
     const Job& job = jobs_[static_cast<std::size_t>(number)];
     const double seconds = frame.timings.build_s + frame.timings.render_s;
     timings_[job.purpose][job.frame] = {seconds, frame.timings.build_s};
-    told_(++done_, job_count());
+    told_(++done_, told_of_);
     return job.purpose == Purpose::kPicture ? keep_picture(job.frame, frame) : Status();
   }
 
@@ -218,7 +219,7 @@ class PreviewRun : public SideClient {
   std::vector<Job> jobs_;
   Clock::time_point begun_;
   std::optional<Clock::time_point> first_asked_;
-  std::int64_t done_ = 0;
+  std::int64_t done_ = 0, told_of_ = 0;
   std::vector<Whole> whole_;        ///< of each frame of the wish; kept when it is first asked for
   std::vector<std::size_t> again_;  ///< that no denoiser was there for
   std::map<Purpose, std::map<std::size_t, Timing>> timings_;

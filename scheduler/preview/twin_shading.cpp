@@ -127,7 +127,7 @@ double exposure_for(const std::vector<Shading>& shadings) {
 
 Image<std::uint8_t> shaded_display(const Image<float>& light, double exposure) {
   constexpr std::size_t kSteps = 1024;
-  static const std::array<std::uint8_t, kSteps + 1> kCodes = [] {
+  static const std::array<std::uint8_t, kSteps + 1> code_by_step = [] {
     std::array<std::uint8_t, kSteps + 1> codes{};
     for (std::size_t i = 0; i <= kSteps; ++i) {
       // What is bright is rolled off: 0 to 1 stands for 0 to infinity of light.
@@ -143,7 +143,7 @@ Image<std::uint8_t> shaded_display(const Image<float>& light, double exposure) {
       light.values.begin(), light.values.end(), display.values.begin(), [&](float value) {
         const double exposed = std::isfinite(value) ? std::max(0.0, exposure * value) : 0.0;
         const double rolled = exposed * (1.0 + exposed / 9.0) / (1.0 + exposed);  // white at 3
-        return kCodes[static_cast<std::size_t>(std::min(1.0, rolled) * kSteps)];
+        return code_by_step[static_cast<std::size_t>(std::min(1.0, rolled) * kSteps)];
       });
   return display;
 }
