@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "picture/frame_picture.h"
+#include "picture/pixel_layers.h"
 #include "tests/export/synthetic_dataset.h"
 #include "tests/fixtures/message_of.h"
 #include "tests/fixtures/scratch_folder.h"
+#include "tests/scene/scene_fixture.h"
+#include "twin/twin.h"
 
 namespace seedframe {
 namespace {
@@ -74,6 +77,37 @@ TEST_F(StoredFrameTest, WithPicturesOfAnotherSizeIsDamaged) {
   ASSERT_TRUE(write_quickly(folder / "image.png", encode_png(Image<std::uint8_t>(5, 4, 3))));
   SyntheticDataset::write_manifest(campaign_.frames().at(0));
   EXPECT_THAT(message_of(content({Layer::kImage})), HasSubstr("picture has 5 × 4 pixels"));
+}
+
+TEST_F(StoredFrameTest, DisagreesWhereTheTwinSeesAnotherInstance) {
+  const auto expander = expander_of(
+      "seedframe: 1\nrender: {width: 64, height: 48}\nobjects: {o: {asset: cube}}\n"
+      "camera: {distance_m: 0.5}\n");
+  ASSERT_TRUE(expander) << expander.error().message;
+  const ExpandedFrame frame = frame_of(*expander);
+  const auto twin = TwinTracer().trace(frame.spec, frame.meshes, TwinTracer::Passes::kIdsOnly);
+  ASSERT_TRUE(twin) << twin.error().message;
+  IdImage ids = twin->instance_ids;
+  ASSERT_EQ(ids.at(24, 32), 1) << "the cube is in the middle";
+  ids.at(24, 32) = 0;
+  campaign_.add_frame(9, 4, ids);
+  const CommittedFrame& committed = campaign_.frames().at(1);
+  std::string id = committed.frame_id;
+  const auto expand = [&](std::int64_t) -> Result<ExpandedFrame> {
+    ExpandedFrame today = frame;
+    today.id = id;
+    return today;
+  };
+  const auto content = read_content(committed, campaign_.dataset(), {Layer::kDisagreement}, expand);
+  ASSERT_TRUE(content) << content.error().message;
+  ASSERT_TRUE(content->disagreement) << content->absent.at(Layer::kDisagreement);
+  EXPECT_EQ(content->disagreement->at(24, 32), 255);
+  EXPECT_EQ(count_disagreement(*content->disagreement).inside_px, 1);
+  EXPECT_EQ(count_disagreement(*content->disagreement).edge_px, 0);
+  id = "another";
+  EXPECT_THAT(read_content(committed, campaign_.dataset(), {Layer::kDisagreement}, expand)
+                  ->absent.at(Layer::kDisagreement),
+              HasSubstr("have changed since"));
 }
 
 TEST_F(StoredFrameTest, SkeletonsAreTheDatasetsByName) {
