@@ -20,6 +20,14 @@ std::string note_of(const FrameContent& content) {
   return fmt::format("{} object{}", objects, objects == 1 ? "" : "s");
 }
 
+/// "12 to 40 px".
+std::string range_of(const ClassSizes& sizes) {
+  if (sizes.objects == 0) return "none is seen";
+  const std::string least = fmt::format("{:.0f}", sizes.least_px);
+  const std::string most = fmt::format("{:.0f} px", sizes.most_px);
+  return most.starts_with(least + " ") ? most : least + " to " + most;
+}
+
 }  // namespace
 
 ContactSheet preview_sheet(const std::vector<PreviewedFrame>& frames,
@@ -37,11 +45,8 @@ ContactSheet preview_sheet(const std::vector<PreviewedFrame>& frames,
         {std::move(picture.pixels), fmt::format("frame {}", frame.index), note_of(frame.content)});
   }
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const ClassSizes& each = sizes[i];
     sheet.legend.push_back({LegendEntry::Sign::kLine, class_color(static_cast<int>(i) + 1),
-                            each.objects == 0 ? each.name + ": none is seen"
-                                              : fmt::format("{}: {:.0f} to {:.0f} px", each.name,
-                                                            each.least_px, each.most_px)});
+                            sizes[i].name + ": " + range_of(sizes[i])});
   }
   if (!sheet.tiles.empty()) {
     const Image<std::uint8_t>& tile = sheet.tiles.front().pixels;

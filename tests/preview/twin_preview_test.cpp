@@ -123,6 +123,10 @@ TEST(PreviewSheet, HasAFrameATileAndSaysSizesAndRemarks) {
   ASSERT_THAT(sheet.legend, SizeIs(2));
   EXPECT_TRUE(sheet.legend[0].text.ends_with(" px")) << sheet.legend[0].text;
   EXPECT_EQ(sheet.legend[1].text, "cube: none is seen");
+  const ContactSheet one_size = preview_sheet(frames, {{"ball", 3, 31.6, 31.8, 32.4, 0}}, {});
+  EXPECT_EQ(one_size.legend[0].text, "ball: 32 px");
+  EXPECT_EQ(preview_sheet(frames, {{"ball", 3, 3.0, 9.0, 32.0, 0}}, {}).legend[0].text,
+            "ball: 3 to 32 px");
   const auto with_remark = draw_sheet(sheet);
   ASSERT_TRUE(with_remark);
   ContactSheet without = sheet;
