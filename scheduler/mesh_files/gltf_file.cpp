@@ -96,7 +96,7 @@ bool is_harmless_extension(std::string_view name) {
 }
 
 std::string_view type_name(std::uint64_t components) {
-  return components == 1 ? "SCALAR" : components == 2 ? "VEC2" : "VEC3";
+  return components == 1 ? "SCALAR" : components == 2 ? "VEC2" : components == 3 ? "VEC3" : "VEC4";
 }
 
 }  // namespace

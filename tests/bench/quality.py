@@ -6,7 +6,11 @@ with fixed numbers of samples. `seedframe verify-error` then says how wrong each
 one whose 95th percentile of errors is that of the `quality` campaign is found between those that were rendered, by
 straight lines over logarithms, and its CPU time with it.
 
-    tests/bench/quality.py [--blender BLENDER] [--scene NAME…] [--report FILE]
+    tests/bench/quality.py [--blender BLENDER] [--scene NAME…] [--report FILE] [--errors FILE]
+
+Errors are the same whatever the machine is busy with, and take most of the time; times are not. With --errors, errors
+that the file has are not measured again, and others are added to it: a second run of ten minutes, on a machine that
+does nothing else, then measures times only.
 
 CPU time is what workers of one thread took for the frames, from the job store. Pilots are told apart: they cost the
 same for 24 frames as for 10,000.
@@ -52,19 +56,30 @@ SCENES = (
 @dataclasses.dataclass
 class Rendered:
     cpu_s: float  # a frame
-    errors: list  # rmse8 of each frame
+    percentile: float  # of the frames' errors
+    within: int  # so many frames are within the bound
     scouts_s: float = 0.0  # a frame
     pilots_s: float = 0.0
     denoised: int = 0
 
-    def percentile(self):
-        return sorted(self.errors)[math.ceil(SHARE * len(self.errors)) - 1]
-
 
 class Bench:
-    def __init__(self, blender, folder):
+    def __init__(self, blender, folder, errors):
         self.blender = blender
         self.folder = folder
+        self.errors = errors
+
+    def errors_of(self, scene, name, campaign):
+        """The 95th percentile, and how many frames are within the bound."""
+        key = f"{scene.name}, {name}"
+        if key not in self.errors.known:
+            answer = run([PROGRAM, "verify-error", campaign, "--frames", str(FRAMES), "--samples", str(REFERENCE),
+                          "--quiet", "--json", "--blender", self.blender, "--workers", str(os.cpu_count()),
+                          "--threads", "1"], (0, 10))
+            errors = sorted(frame["rmse8"] for frame in json.loads(answer.stdout)["frames"])
+            self.errors.keep(key, {"percentile": round(errors[math.ceil(SHARE * len(errors)) - 1], 4),
+                                   "within": sum(each <= scene.bound for each in errors)})
+        return self.errors.known[key]
 
     def render(self, scene, name, settings):
         campaign = self.folder / f"{scene.name}-{name}".replace(" ", "-")
@@ -77,19 +92,27 @@ class Bench:
         told = run(command).stderr
         with sqlite3.connect(campaign / "campaign.sqlite") as store:
             seconds, = store.execute("SELECT sum(build_s + render_s) FROM attempts WHERE outcome = 'done'").fetchone()
-        answer = run([PROGRAM, "verify-error", campaign, "--frames", str(FRAMES), "--samples", str(REFERENCE), "--quiet",
-                      "--json", "--blender", self.blender, "--workers", str(os.cpu_count()), "--threads", "1"], (0, 10))
-        errors = [frame["rmse8"] for frame in json.loads(answer.stdout)["frames"]]
-        rendered = Rendered(seconds / FRAMES, errors)
+        rendered = Rendered(seconds / FRAMES, **self.errors_of(scene, name, campaign))
         calibrated = re.search(r"pilots ([\d.]+), scouts ([\d.]+) CPU s", told)
         if calibrated:
             rendered.pilots_s = float(calibrated[1])
             rendered.scouts_s = float(calibrated[2]) / FRAMES
             denoised = re.search(r"(\d+) frames denoised", told)
             rendered.denoised = int(denoised[1]) if denoised else 0
-        print(f"{scene.name}, {name}: {rendered.cpu_s:.3f} CPU s a frame, 95 % within {rendered.percentile():.2f}",
+        print(f"{scene.name}, {name}: {rendered.cpu_s:.3f} CPU s a frame, 95 % within {rendered.percentile:.2f}",
               file=sys.stderr, flush=True)
         return rendered
+
+
+class Errors:
+    def __init__(self, file):
+        self._file = file
+        self.known = json.loads(file.read_text()) if file and file.exists() else {}
+
+    def keep(self, key, value):
+        self.known[key] = value
+        if self._file:
+            self._file.write_text(json.dumps(self.known, indent=2) + "\n")
 
 
 def run(command, codes=(0,)):
@@ -102,7 +125,7 @@ def run(command, codes=(0,)):
 
 def fixed_at(error, fixed):
     """Samples and CPU seconds of the fixed number whose 95th percentile is that; beyond the ends as the last piece."""
-    points = sorted((math.log(each.percentile()), math.log(samples), math.log(each.cpu_s))
+    points = sorted((math.log(each.percentile), math.log(samples), math.log(each.cpu_s))
                     for samples, each in fixed.items())
     at = math.log(error)
     upper = next((i for i in range(1, len(points)) if points[i][0] >= at), len(points) - 1)
@@ -121,9 +144,9 @@ def interval(within, of):
 
 
 def row(scene, kind, rendered, fixed):
-    error = rendered.percentile()
+    error = rendered.percentile
     samples, seconds = fixed_at(error, fixed)
-    within = sum(each <= scene.bound for each in rendered.errors)
+    within = rendered.within
     low, high = interval(within, FRAMES)
     frame = rendered.cpu_s + rendered.scouts_s
     return (f"| {scene.name} | {kind}{f', {rendered.denoised} frames' if rendered.denoised else ''} | {scene.bound} | "
@@ -136,15 +159,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--blender", default="python:" + str(HOME / "venv" / "blender-4.5"))
     parser.add_argument("--scene", action="append", choices=[scene.name for scene in SCENES])
+    parser.add_argument("--errors", type=pathlib.Path, help="what is known of them; see above")
     parser.add_argument("--report", type=pathlib.Path, help="write the table there too")
     options = parser.parse_args()
     rows = []
+    errors = Errors(options.errors)
     version = run([PROGRAM, "--version"]).stdout.strip()
     for scene in SCENES:
         if options.scene and scene.name not in options.scene:
             continue
         with tempfile.TemporaryDirectory(prefix="seedframe-quality-") as folder:
-            bench = Bench(options.blender, pathlib.Path(folder))
+            bench = Bench(options.blender, pathlib.Path(folder), errors)
             wish = f"{{metric: rmse8, max_error: {scene.bound}, share: {SHARE}"
             fixed = {samples: bench.render(scene, f"{samples} samples", [f"render.samples={samples}"])
                      for samples in FIXED}
