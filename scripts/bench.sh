@@ -56,7 +56,7 @@ for name in "$@"; do
       ;;
     patches) tests/bench/patches.py --report results/bench/patches.md ;;
     forecast) tests/bench/forecast.py --report results/bench/forecast.md ;;
-    scaling) tests/bench/scaling.py --largest-mesh 10000000 --report results/scaling ;;
+    scaling) tests/bench/scaling.py --largest-mesh 4000000 --report results/scaling ;;
     quality) tests/bench/quality.py --errors results/quality/errors.json --report results/quality/quality.md ;;
     startup) tests/bench/startup.py --report results/bench/startup.md ;;
     throughput) tests/bench/throughput.py --report results/bench/throughput.md ;;

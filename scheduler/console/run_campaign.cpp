@@ -27,29 +27,21 @@ std::string describe_work(const CampaignSettings& settings, std::size_t frames) 
                      render.height, settings.quality ? "most " : "", render.samples);
 }
 
-int print_outcome(const Campaign& campaign, std::int64_t done_before, const RunSummary& summary,
-                  double seconds, bool interrupted) {
+/// What is left to do, if anything is; else what can be done now.
+int print_next(const Campaign& campaign, const FrameCounts& counts, bool interrupted) {
   const std::string folder = campaign.files.root().string();
-  const Result<FrameCounts> counts = campaign.store.counts();
-  if (!counts) return report(counts.error());
-  say("{} of {} frames are done ({} in this run{}, {})\n", counts->done, counts->total(),
-      std::max<std::int64_t>(0, counts->done - done_before),
-      summary.from_cache > 0 ? fmt::format(", {} of them found on this machine", summary.from_cache)
-                             : "",
-      duration_text(seconds));
-  if (counts->done > 0) say("look: 'seedframe show {}'\n", folder);
-  if (counts->quarantined > 0) {
+  if (counts.quarantined > 0) {
     say("{} frames are quarantined, each has cost too many workers: 'seedframe status {}' "
         "names them and how to see it again\n",
-        counts->quarantined, folder);
+        counts.quarantined, folder);
   }
-  if (counts->failed > 0) {
+  if (counts.failed > 0) {
     say("{} frames failed: 'seedframe status {}' names them, 'seedframe resume {}' tries "
         "them again\n",
-        counts->failed, folder, folder);
+        counts.failed, folder, folder);
   }
-  if (counts->failed + counts->quarantined > 0) return kExitSomeFailed;
-  if (counts->done < counts->total()) {
+  if (counts.failed + counts.quarantined > 0) return kExitSomeFailed;
+  if (counts.done < counts.total()) {
     say("'seedframe resume {}' renders the rest\n", folder);
     return interrupted ? kExitInterrupted : kExitOk;
   }
@@ -57,6 +49,22 @@ int print_outcome(const Campaign& campaign, std::int64_t done_before, const RunS
   if (!hash) return report(hash.error());
   say("dataset hash {}\n'seedframe export {} --format coco' writes annotations\n", *hash, folder);
   return kExitOk;
+}
+
+int print_outcome(const Campaign& campaign, std::int64_t done_before, const RunSummary& summary,
+                  double seconds, bool interrupted) {
+  const Result<FrameCounts> counts = campaign.store.counts();
+  if (!counts) return report(counts.error());
+  say("{} of {} frames are done ({} in this run{}, {})\n", counts->done, counts->total(),
+      std::max<std::int64_t>(0, counts->done - done_before),
+      summary.from_cache > 0 ? fmt::format(", {} of them found on this machine", summary.from_cache)
+                             : "",
+      duration_text(seconds));
+  const int code = print_next(campaign, *counts, interrupted);
+  if (counts->done > 0) {
+    say("look: 'seedframe show {0}' or 'seedframe report {0}'\n", campaign.files.root().string());
+  }
+  return code;
 }
 
 }  // namespace
