@@ -1,13 +1,13 @@
 #!/bin/sh
 # The benchmarks, into results/: how fast configs are expanded, what the twin costs and where it agrees with Cycles, what submit costs above
-# a bare loop in Blender, a worker's memory over 1,000 frames, how fast annotations are written, what a large store costs, how fast an audit reads,
+# a bare loop in Blender, a worker's memory over 1,000 frames, how fast annotations are written, how large a report is and how soon it can be used, what a large store costs, how fast an audit reads,
 # how long the program takes to start, how many frames an hour all of it makes beside BlenderProc, what a second of rendering buys,
 # whether a stated error is kept, what pictures of single objects cost, how costs grow with a scene, whether forecasts come true,
 # and what a detector that learns from the frames makes of their samples. Takes about two and a half hours
 # on two idle cores; on a busy machine longer, and then it measures the company.
 #
 #   scripts/bench.sh               all
-#   scripts/bench.sh NAME…         of error, quality, patches, scaling, forecast, expansion, twin, frame, stability, overhead, memory, export, store, audit, startup,
+#   scripts/bench.sh NAME…         of error, quality, patches, scaling, forecast, expansion, twin, frame, stability, overhead, memory, export, report, store, audit, startup,
 #                                  determinism, throughput, detector
 #   scripts/bench.sh detector-full the whole of results/detector, an hour, in place of a short version
 #   scripts/bench.sh quick         most of them, cut down to ten minutes in all, into build/quick/: does a change show?
@@ -32,7 +32,7 @@ if [ "${1:-}" = quick ]; then
   build/release/seedframe bench error configs/parts.yaml -o $quick/error --width 96 --frames 1 --budget 60s || failed=1
   exit $failed
 fi
-[ $# -gt 0 ] || set -- error quality patches scaling forecast expansion twin frame stability overhead memory export store audit startup determinism throughput detector
+[ $# -gt 0 ] || set -- error quality patches scaling forecast expansion twin frame stability overhead memory export report store audit startup determinism throughput detector
 failed=0
 for name in "$@"; do
   case $name in
@@ -43,6 +43,7 @@ for name in "$@"; do
     overhead) tests/bench/overhead.py --report results/bench/overhead.md ;;
     memory) tests/bench/worker_memory.py --report results/bench/memory.md ;;
     export) tests/bench/export.py --report results/bench/export.md ;;
+    report) tests/browser/install.sh && tests/bench/report.py --report results/bench/report.md ;;
     store) tests/bench/store.py --report results/reliability/scale.md ;;
     audit) tests/bench/audit.py --report results/bench/audit.md ;;
     error) # of each Blender that there is: 20 minutes

@@ -16,6 +16,7 @@
 namespace seedframe {
 namespace {
 
+constexpr std::int64_t kMostPageFrames = 20'000;  // in a page: their thumbnails are all in it
 constexpr int kNewest = 12;
 constexpr int kMostRunning = 256;
 constexpr int kFailures = 5;
@@ -185,6 +186,7 @@ Result<std::string> LiveCampaign::page(const Json& others) {
   const Result<PreparedCampaign> prepared = prepare_again(campaign_, home_);
   PageWish wish;
   wish.threads = core_count();
+  wish.most_frames = kMostPageFrames;
   std::string parts;
   Result<Json> data = campaign_page(campaign_, prepared ? &*prepared : nullptr,
                                     prepared ? std::string() : prepared.error().message, wish,

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/message_text.h"
-#include "base/utf8.h"
 
 namespace seedframe {
 
@@ -13,7 +12,7 @@ ToldText::ToldText(const std::filesystem::path& root) {
   fs::path given = root.lexically_normal();
   if (given.filename().empty()) given = given.parent_path();  // "results/parts/"
   const fs::path real = fs::weakly_canonical(given, error);
-  name_ = as_utf8(printable(real.filename().string()));
+  name_ = printable(real.filename().string());
   for (const fs::path& path : {given, fs::absolute(given, error), real}) {
     const std::string text = path.string();
     // What is a name alone tells nothing, and may be part of any word.
@@ -31,7 +30,7 @@ std::string ToldText::of(std::string_view text) const {
       told.replace(at, path.size(), name_);
     }
   }
-  return as_utf8(printable(told));
+  return printable(told);  // UTF-8, too
 }
 
 }  // namespace seedframe

@@ -100,6 +100,7 @@ function frameView(index) {
     const own = part.frames[frame % data.parts.cells];
     if (part.missing) details.append(el('p', { class: 'banner' }, `The folder “${data.parts.folder}” is not beside this page: pictures and attempts are in it.`));
     if (own?.damage) details.append(el('div', { class: 'banner bad' }, el('p', {}, 'The frame’s files are not as they were written; “resume” makes it again.'), el('pre', { class: 'message' }, own.damage)));
+    if (data.live && frames.state[frame] > DONE) details.append(el('p', {}, el('button', { type: 'button', onclick: () => command(`retry/${index}`) }, 'Make this frame again')));
     if (own?.error) details.append(el('div', { class: 'banner bad' }, el('p', {}, 'The last attempt failed.'), el('pre', { class: 'message' }, own.error)));
     left.append(identity(frame, own), el('section', { class: 'card' }, el('h3', {}, 'Attempts and timings'), attemptsTable(own?.attempts ?? [])));
   });
