@@ -359,9 +359,10 @@ Result<Json> PageMaker::make(const std::string& why_not, const PartSink& sink) {
   if (!failures) return forward_error(failures);
   Result<Json> errors = errors_json(campaign_, status->promise);
   if (!errors) return forward_error(errors);
-  Json draws = {{"variables", draws_.to_json()},
-                {"frames", expanded_},
-                {"left_out", prepared_ == nullptr ? told_.of(why_not) : std::string()}};
+  Json draws = {
+      {"variables", draws_.to_json()},
+      {"frames", expanded_},
+      {"left_out", prepared_ == nullptr ? without_folders(told_.of(why_not)) : std::string()}};
   return Json{{"version", kPageVersion},
               {"campaign", campaign_json()},
               {"summary", summary_json(*status)},

@@ -33,4 +33,24 @@ std::string ToldText::of(std::string_view text) const {
   return printable(told);  // UTF-8, too
 }
 
+std::string without_folders(std::string_view text) {
+  constexpr std::string_view kBefore = " \n\t'\"(=:,";
+  constexpr std::string_view kAfter = " \n\t'\"):,";
+  std::string told;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const bool begins =
+        text[at] == '/' && (at == 0 || kBefore.find(text[at - 1]) != std::string_view::npos);
+    if (!begins) {
+      told += text[at++];
+      continue;
+    }
+    const std::size_t end = std::min(text.find_first_of(kAfter, at), text.size());
+    const std::string_view path = text.substr(at, end - at);
+    told += path.substr(path.rfind('/') + 1);
+    at = end;
+  }
+  return told;
+}
+
 }  // namespace seedframe

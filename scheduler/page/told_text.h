@@ -22,4 +22,7 @@ class ToldText {
   std::vector<std::string> paths_;  ///< of the folder, the longest first
 };
 
+/// With the last part alone of each absolute path: "/home/me/parts.yaml:3:1" → "parts.yaml:3:1".
+std::string without_folders(std::string_view text);
+
 }  // namespace seedframe

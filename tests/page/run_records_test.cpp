@@ -83,6 +83,13 @@ TEST(ToldTexts, NameTheCampaignInsteadOfItsFolder) {
   EXPECT_EQ(ToldText("/data/of/mine/parts/").name(), "parts");
 }
 
+TEST(ToldTexts, LoseTheFoldersOfAbsolutePaths) {
+  EXPECT_EQ(without_folders("/home/me/parts.yaml:3:1: 'a/b' is not in '/data/lib'"),
+            "parts.yaml:3:1: 'a/b' is not in 'lib'");
+  EXPECT_EQ(without_folders("1/2 and /"), "1/2 and ");
+  EXPECT_EQ(without_folders(""), "");
+}
+
 TEST(ToldTexts, AreUtf8WithoutWhatATerminalObeys) {
   EXPECT_EQ(ToldText("/a/b").of("\x1b[31m\xff"), "?[31m?");
   EXPECT_EQ(ToldText("parts").of("spare parts"), "spare parts") << "a word is no path";
