@@ -137,10 +137,7 @@ Status rename_file(const fs::path& from, const fs::path& to) {
 
 Status replace_folder(const fs::path& temporary, const fs::path& final) {
   if (::rename(temporary.c_str(), final.c_str()) == 0) return {};
-  // ENOTDIR: a file or a link, whose target is not ours to touch, stands there.
-  if (errno != ENOTEMPTY && errno != EEXIST && errno != ENOTDIR) {
-    return system_failure("rename to", final, errno);
-  }
+  if (errno != ENOTEMPTY && errno != EEXIST) return system_failure("rename to", final, errno);
   std::error_code error;
   fs::remove_all(final, error);
   if (::rename(temporary.c_str(), final.c_str()) != 0) {

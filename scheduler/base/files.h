@@ -59,7 +59,7 @@ Status sync_filesystem(const std::filesystem::path& path);
 Status replace_folder(const std::filesystem::path& temporary, const std::filesystem::path& final);
 
 /// Renames a finished folder to its final name and forces the rename to the disk.
-/// What already has the final name is replaced: a folder, a file, or a link (not its target).
+/// A folder that already has the final name is replaced.
 Status commit_folder(const std::filesystem::path& temporary, const std::filesystem::path& final);
 
 Status make_folders(const std::filesystem::path& path);

@@ -136,6 +136,10 @@ Result<std::string> StoreWriter::put_into_place(const FrameJob& job) const {
   // An earlier attempt may have been rejected; this one was not.
   std::error_code ignored;
   fs::remove_all(files_.rejected(job.frame), ignored);
+  // What somebody put in its place; of a link, not its target, which is not ours.
+  if (fs::symlink_status(folder, ignored).type() != fs::file_type::directory) {
+    fs::remove(folder, ignored);
+  }
   if (Status placed = replace_folder(files_.attempt(job.frame, job.attempt), folder); !placed) {
     return forward_error(placed);
   }

@@ -75,7 +75,7 @@ camera: {target: [0, 0, 0], distance_m: {uniform: [0.2, 0.5]}}
   const Outcome exported = run(arguments);
   ASSERT_EQ(exported.exit_code, 0) << exported.errors;
   EXPECT_EQ(hash_of("c/exports"),
-            "6d5bc50bc71e0d43e76ca77bd0b33e7176f31d0302b328d0e850b3d1d2d4a61c");
+            "9cd1b2fcb8d7ce6e0339e957acc46059b061d76847f43cf3219dd5ed1529b03b");
 }
 
 }  // namespace
