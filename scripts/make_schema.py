@@ -48,6 +48,7 @@ PARAMETERS = {
     "uniform": ("min", "max"),
     "normal": ("mean", "std"),
     "truncated_normal": ("mean", "std", "min", "max"),
+    "bounded_normal": ("mean", "std", "min", "max"),
     "log_uniform": ("min", "max"),
     "integer": ("min", "max"),
     "poisson": ("mean",),

@@ -21,6 +21,7 @@ const std::vector<DistributionSyntax>& distributions() {
       {"uniform", DistributionKind::kUniform, {"min", "max"}},
       {"normal", DistributionKind::kNormal, {"mean", "std"}},
       {"truncated_normal", DistributionKind::kTruncatedNormal, {"mean", "std", "min", "max"}},
+      {"bounded_normal", DistributionKind::kBoundedNormal, {"mean", "std", "min", "max"}},
       {"log_uniform", DistributionKind::kLogUniform, {"min", "max"}},
       {"integer", DistributionKind::kInteger, {"min", "max"}},
       {"poisson", DistributionKind::kPoisson, {"mean"}},

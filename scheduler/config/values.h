@@ -29,6 +29,7 @@ enum class DistributionKind {
   kUniform,          ///< [min, max)
   kNormal,           ///< mean, std
   kTruncatedNormal,  ///< mean, std, min, max
+  kBoundedNormal,    ///< mean and std of what is drawn, min, max
   kLogUniform,       ///< [min, max), both positive
   kInteger,          ///< min to max, both included
   kPoisson,          ///< mean

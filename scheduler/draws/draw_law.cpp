@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "draws/bounded_normal.h"
+
 namespace seedframe {
 namespace {
 
@@ -63,6 +65,8 @@ const char* name_of(DistributionKind kind) {
       return "normal";
     case DistributionKind::kTruncatedNormal:
       return "truncated_normal";
+    case DistributionKind::kBoundedNormal:
+      return "bounded_normal";
     case DistributionKind::kLogUniform:
       return "log_uniform";
     case DistributionKind::kInteger:
@@ -91,6 +95,8 @@ std::optional<double> share_up_to(const DrawLaw& law, double x) {
       return normal_up_to(x, p[0], p[1]);
     case DistributionKind::kTruncatedNormal:
       return truncated_normal_up_to(x, p);
+    case DistributionKind::kBoundedNormal:
+      return BoundedNormal(p[0], p[1], p[2], p[3]).share_up_to(x);
     case DistributionKind::kLogUniform:
       return x <= p[0] ? 0.0 : linear_up_to(std::log(x), std::log(p[0]), std::log(p[1]));
     case DistributionKind::kInteger:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "draws/bounded_normal.h"
 #include "draws/quantile.h"
 
 namespace seedframe {
@@ -37,6 +38,8 @@ std::string parameter_error(DistributionKind kind, const std::array<double, 4>& 
         return fmt::format("truncated_normal needs min <= max, found [{}, {}]", p[2], p[3]);
       }
       break;
+    case DistributionKind::kBoundedNormal:
+      return BoundedNormal::error(p[0], p[1], p[2], p[3]);
     case DistributionKind::kLogUniform:
       if (!(p[0] > 0 && p[0] <= p[1])) {
         return fmt::format("log_uniform needs 0 < min <= max, found [{}, {}]", p[0], p[1]);
@@ -223,6 +226,9 @@ double NumberDraw::draw(const Random& random, const Place& place, EvaluationCont
         break;
       case DistributionKind::kTruncatedNormal:
         value = quantile::truncated_normal(u, p[0], p[1], p[2], p[3]);
+        break;
+      case DistributionKind::kBoundedNormal:
+        value = BoundedNormal(p[0], p[1], p[2], p[3]).quantile(u);
         break;
       case DistributionKind::kLogUniform:
         value = quantile::log_uniform(u, p[0], p[1]);

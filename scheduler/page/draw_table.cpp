@@ -56,6 +56,9 @@ std::string words_of(const DrawLaw& law) {
     case DistributionKind::kTruncatedNormal:
       return fmt::format("normal, mean {:.6g}, std {:.6g}, from {:.6g} to {:.6g}", p[0], p[1], p[2],
                          p[3]);
+    case DistributionKind::kBoundedNormal:
+      return fmt::format("normal from {:.6g} to {:.6g}, mean {:.6g} and std {:.6g} there", p[2],
+                         p[3], p[0], p[1]);
     case DistributionKind::kPoisson:
       return fmt::format("Poisson, mean {:.6g}", p[0]);
     case DistributionKind::kChoice:

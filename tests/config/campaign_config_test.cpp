@@ -45,10 +45,11 @@ variables:
     j: {choice: [{value: 1, weight: 3}, {value: "a + 1"}]}
     k: {choice: {red: 1, blue: 2}}
     l: a * 2
+    m: {bounded_normal: [0, 0.5, -1, 1]}
 )",
                                            "t.yaml");
   ASSERT_TRUE(config) << config.error().message;
-  ASSERT_EQ(config->scene_variables.size(), 12u);
+  ASSERT_EQ(config->scene_variables.size(), 13u);
   EXPECT_TRUE(std::holds_alternative<NameSource>(config->scene_variables[10].source));
   const auto& weighted = std::get<NumberSource>(config->scene_variables[9].source);
   EXPECT_EQ(std::get<std::shared_ptr<const Distribution>>(weighted.value)->parameters.size(), 2u);

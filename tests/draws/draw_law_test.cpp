@@ -40,6 +40,14 @@ TEST(DrawLaw, OfTruncatedDrawsIsWholeBetweenTheEnds) {
   EXPECT_DOUBLE_EQ(up_to(law, 1), 1);
 }
 
+TEST(DrawLaw, OfBoundedDrawsIsHalfAtTheMeanInTheMiddle) {
+  const DrawLaw law = law_of(DistributionKind::kBoundedNormal, {0, 0.4, -1, 1});
+  EXPECT_DOUBLE_EQ(up_to(law, -1.001), 0);
+  EXPECT_NEAR(up_to(law, 0), 0.5, 1e-12);
+  EXPECT_DOUBLE_EQ(up_to(law, 1), 1);
+  EXPECT_STREQ(name_of(DistributionKind::kBoundedNormal), "bounded_normal");
+}
+
 TEST(DrawLaw, OfLogUniformDrawsHasHalfBelowTheGeometricMean) {
   const DrawLaw law = law_of(DistributionKind::kLogUniform, {1, 100});
   EXPECT_NEAR(up_to(law, 10), 0.5, 1e-12);
