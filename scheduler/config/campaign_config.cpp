@@ -6,6 +6,7 @@
 
 #include "base/message_text.h"
 #include "base/nearest_name.h"
+#include "base/philox.h"
 #include "config/determinism_section.h"
 #include "config/image_section.h"
 #include "config/plan_sections.h"
@@ -80,6 +81,13 @@ std::vector<std::filesystem::path> read_folders(SectionReader& section, const st
 void read_size(SectionReader& section, CampaignConfig& config) {
   config.seed = static_cast<std::uint64_t>(
       section.integer("seed", 0, 0, std::numeric_limits<long long>::max()));
+  config.stream = section.text("stream", "");
+  if (!config.stream.empty() && !is_one_line_name(config.stream)) {
+    section.errors().add(section.node().find("stream")->place(),
+                         "the name of a stream is one line of at most 200 bytes, without control "
+                         "characters, found '" +
+                             shortened(config.stream, 200) + "'");
+  }
   config.sweep = read_sweep(section);
   config.scenes = section.integer("scenes", 1, 1, kMostFrames) * config.sweep.size();
   config.frames_per_scene = section.integer("frames_per_scene", 1, 1, kMostFrames);
@@ -220,6 +228,10 @@ Result<CampaignConfig> read_campaign_config(const std::string& text,
   if (!errors.empty()) return tl::unexpected(errors.as_error());
   config.files = root->named_files();
   return config;
+}
+
+std::uint64_t CampaignConfig::draw_seed() const {
+  return stream.empty() ? seed : PhiloxStream(seed, "stream/" + stream).bits({});
 }
 
 Result<std::vector<MaterialConfig>> read_material_library(const std::string& text,

@@ -110,7 +110,7 @@ struct MaterialConfig {
   ColorSource base_color;
   NumberSource metallic, roughness, specular, transmission, ior, clearcoat, texture_repeat;
   std::optional<NumberSource> texture_size_m;  ///< in place of texture_repeat
-  std::optional<NameSource> textures;  ///< name of a texture set
+  std::optional<NameSource> textures;          ///< name of a texture set
 };
 
 /// Copies in rows: along x first, then y, then z, centred on the position.
@@ -232,6 +232,7 @@ struct CameraConfig {
 struct CampaignConfig {
   std::string name;
   std::uint64_t seed = 0;
+  std::string stream;  ///< of the seed's draws; empty: the seed's own
   std::int64_t scenes = 1;
   std::int64_t frames_per_scene = 1;
   std::vector<std::string> categories;
@@ -257,6 +258,8 @@ struct CampaignConfig {
   std::vector<std::filesystem::path> files;     ///< that the config and its bases name, and folders
 
   std::int64_t frame_count() const { return scenes * frames_per_scene; }
+  /// Keys all draws: `seed`, or in a stream 64 bits drawn from it by the stream's name.
+  std::uint64_t draw_seed() const;
 };
 
 /// Reads a config's text. `file` is the path as the user gave it; relative paths inside start at

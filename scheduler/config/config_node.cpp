@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "base/files.h"
@@ -116,12 +117,57 @@ Status apply(const YAML::Node& root, const Override& change) {
       node.reset(next);
     }
   }
-  // Each line of graphs is a scene, so they come in place of what says how many scenes there are.
-  if (change.path == "graphs" && !value->IsNull()) {
-    node.remove("scenes");
-    node.remove("sweep");
-  }
   return {};
+}
+
+/// What a sweep goes through becomes campaign variables with its first values.
+void make_variables_of_sweep(YAML::Node root) {
+  YAML::Node variables = root["variables"];
+  if (!variables.IsDefined() || variables.IsNull()) {
+    root["variables"] = YAML::Node(YAML::NodeType::Map);
+    variables.reset(root["variables"]);
+  }
+  if (!variables.IsMap()) return;
+  YAML::Node campaign = variables["campaign"];
+  if (!campaign.IsDefined() || campaign.IsNull()) {
+    variables["campaign"] = YAML::Node(YAML::NodeType::Map);
+    campaign.reset(variables["campaign"]);
+  }
+  if (!campaign.IsMap()) return;
+  const auto add = [&](const std::string& name, const YAML::Node& value) {
+    if (!value.IsScalar() || campaign[name].IsDefined()) return;
+    if (parse_double(value.Scalar())) {
+      campaign[name] = value;
+    } else {
+      campaign[name]["choice"].push_back(value);  // a plain text would be a formula
+    }
+  };
+  for (const auto& axis : root["sweep"]["values"]) {
+    if (!axis.second.IsSequence() || axis.second.size() == 0) continue;
+    const YAML::Node first = axis.second[0];
+    if (!first.IsMap()) add(axis.first.Scalar(), first);
+    if (!first.IsMap()) continue;
+    for (const auto& entry : first) add(entry.first.Scalar(), entry.second);
+  }
+}
+
+/// Each line of graphs is a scene of one frame, so they come in place of what says how many there
+/// are; `before` are the overrides that came before, of which those of the same file, or of the
+/// command line too, may say otherwise of the frames.
+void make_way_for_graphs(YAML::Node root, const Override& graphs,
+                         std::span<const Override> before) {
+  const YAML::Node sweep = root["sweep"];
+  if (sweep.IsDefined() && sweep.IsMap() && sweep["values"].IsDefined() &&
+      sweep["values"].IsMap()) {
+    make_variables_of_sweep(root);
+  }
+  root.remove("scenes");
+  root.remove("sweep");
+  const bool frames_are_meant =
+      std::any_of(before.begin(), before.end(), [&](const Override& change) {
+        return change.path == "frames_per_scene" && change.origin.file == graphs.origin.file;
+      });
+  if (!frames_are_meant) root.remove("frames_per_scene");
 }
 
 constexpr int kMostBases = 8;
@@ -216,8 +262,12 @@ Result<ConfigNode> ConfigNode::parse(const std::string& text, Source source, int
     return parse(*base, std::move(source), bases + 1);
   }
   try {
-    for (const Override& change : source.overrides) {
+    for (std::size_t i = 0; i < source.overrides.size(); ++i) {
+      const Override& change = source.overrides[i];
       if (Status applied = apply(*root, change); !applied) return forward_error(applied);
+      if (change.path == "graphs" && (*root)["graphs"].IsDefined()) {
+        make_way_for_graphs(*root, change, std::span(source.overrides).first(i));
+      }
     }
   } catch (const YAML::Exception& error) {
     return fail(ErrorKind::kInput, "{}: an override does not fit: {}", file, error.what());

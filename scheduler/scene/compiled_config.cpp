@@ -11,7 +11,7 @@ class Compiler {
   Compiler(const CampaignConfig& config, const MaterialLibrary& materials, CompiledConfig& compiled,
            Diagnostics& errors)
       : config_(config), materials_(materials), compiled_(compiled), errors_(errors) {
-    scope_.seed = config.seed;
+    scope_.seed = config.draw_seed();
   }
 
   void run() {

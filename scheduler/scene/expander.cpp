@@ -28,7 +28,7 @@ class SceneExpander::Program {
         graphs_(std::move(graphs)),
         placer_(std::move(assets), config.categories),
         materials_(std::move(materials)),
-        render_seed_(config.seed, "render.seed") {}
+        render_seed_(config.draw_seed(), "render.seed") {}
 
   Status compile();
   Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes) const;
@@ -50,6 +50,7 @@ class SceneExpander::Program {
   /// Before anything is evaluated.
   Result<EvaluationContext> context_of(std::int64_t scene, std::int64_t view) const;
   void set_sweep(std::int64_t combination, VariableValues& values) const;
+  void add_sweep(const VariableValues& values, Json& graph) const;
   /// Nothing without graphs.
   Result<std::shared_ptr<const std::vector<GivenValues>>> given_for(std::int64_t scene) const;
   void evaluate_variables(EvaluationContext& context) const;
@@ -77,7 +78,7 @@ Status SceneExpander::Program::compile() {
   for (const CompiledObject& object : compiled_.objects) placer_.check_names(object, errors);
   if (!errors.empty()) return tl::unexpected(errors.as_error());
   checker_ = std::make_unique<ConstraintChecker>(compiled_.constraints);
-  if (config_.patches) patches_.emplace(*config_.patches, config_.seed);
+  if (config_.patches) patches_.emplace(*config_.patches, config_.draw_seed());
   return {};
 }
 
@@ -115,6 +116,16 @@ void SceneExpander::Program::set_sweep(std::int64_t combination, VariableValues&
   }
 }
 
+void SceneExpander::Program::add_sweep(const VariableValues& values, Json& graph) const {
+  for (const CompiledSweep::Variable& variable : compiled_.sweep.variables) {
+    if (variable.is_text) {
+      graph[variable.name] = values.texts[variable.slot];
+    } else {
+      graph[variable.name] = values.numbers[variable.slot];
+    }
+  }
+}
+
 Result<std::shared_ptr<const std::vector<GivenValues>>> SceneExpander::Program::given_for(
     std::int64_t scene) const {
   if (graphs_ == nullptr) return nullptr;
@@ -147,6 +158,7 @@ Result<EvaluationContext> SceneExpander::Program::context_of(std::int64_t scene,
 void SceneExpander::Program::evaluate_variables(EvaluationContext& context) const {
   context.values.numbers[compiled_.built_in.scene_index] = static_cast<double>(context.scene);
   context.values.numbers[compiled_.built_in.frame_index] = static_cast<double>(context.frame);
+  if (context.graph != nullptr) add_sweep(context.values, *context.graph);
   compiled_.campaign_variables.evaluate(context);
   compiled_.scene_variables.evaluate(context);
   compiled_.frame_variables.evaluate(context);

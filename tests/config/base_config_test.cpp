@@ -71,6 +71,46 @@ TEST_F(BaseConfig, MayHaveABaseItself) {
   EXPECT_EQ(config->scenes, 7);
 }
 
+TEST_F(BaseConfig, GraphsFromOutsideAreOneLineAFrameInPlaceOfScenesAndSweep) {
+  write("graphs.jsonl", "{}\n");
+  write("swept.yaml",
+        "base: base.yaml\nset:\n  frames_per_scene: 5\n  variables.campaign: {reach: 2}\n  sweep: "
+        "{values: {tint: [{low: 1, high: 2}, {low: 3, high: 4}], kind: [gear, nut], n: [7, 8]}}\n");
+  const Override graphs{"graphs", "graphs.jsonl"};
+  const Override frames{"frames_per_scene", "3"};
+  const auto config = read("base: swept.yaml\n", {graphs});
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->sweep.size(), 1);
+  EXPECT_EQ(config->frames_per_scene, 1);
+  std::vector<std::string> names;
+  for (const VariableConfig& variable : config->campaign_variables) names.push_back(variable.name);
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("reach", "low", "high", "kind", "n"));
+  for (const VariableConfig& variable : config->campaign_variables) {
+    EXPECT_EQ(std::holds_alternative<NameSource>(variable.source), variable.name == "kind");
+  }
+  for (const auto& changes : {std::vector{graphs, frames}, std::vector{frames, graphs}}) {
+    const auto several = read("base: swept.yaml\n", changes);
+    ASSERT_TRUE(several) << several.error().message;
+    EXPECT_EQ(several->frames_per_scene, 3);
+  }
+  const auto inside = read("base: swept.yaml\nset: {frames_per_scene: 2, graphs: graphs.jsonl}\n");
+  ASSERT_TRUE(inside) << inside.error().message;
+  EXPECT_EQ(inside->frames_per_scene, 2);
+}
+
+TEST_F(BaseConfig, StreamsOfASeedHaveOtherDraws) {
+  const auto config = read("base: base.yaml\n");
+  const auto initial = read("base: base.yaml\nset: {stream: initial}\n");
+  const auto target = read("base: base.yaml\nset: {stream: target}\n");
+  ASSERT_TRUE(config && initial && target);
+  EXPECT_EQ(config->draw_seed(), 3u) << "as it has always been";
+  EXPECT_EQ(initial->seed, 3u);
+  EXPECT_NE(initial->draw_seed(), 3u);
+  EXPECT_NE(initial->draw_seed(), target->draw_seed());
+  EXPECT_THAT(error_of("base: base.yaml\nset: {stream: \"two\\nlines\"}\n"),
+              HasSubstr("the name of a stream is one line"));
+}
+
 TEST_F(BaseConfig, MistakesPointToTheFileInWhichTheyStand) {
   EXPECT_THAT(error_of("base: base.yaml\nset:\n  render.width: 0\n"),
               HasSubstr(path("top.yaml") + ":3:17: render.width: expected a whole number"));
