@@ -42,8 +42,8 @@ void expect_moments(double mean, double std, double min, double max) {
   EXPECT_NEAR(found.std, std, 1e-6 * std);
 }
 
-double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
-double normal_density(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2.0 * M_PI); }
+double standard_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+double standard_density(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2.0 * M_PI); }
 
 TEST(BoundedNormal, HasTheMomentsThatAreAskedForOverTheRangesOfTheStudy) {
   // The parameters of configs/parts_study.yaml; those of the shares have the range 0 to 1.
@@ -63,15 +63,15 @@ TEST(BoundedNormal, IsThePieceOfTheNormalDistributionThatHasThem) {
   // The textbook's mean and variance of N(0.3, 0.4) given [0, 1].
   const double low = (0.0 - 0.3) / 0.4;
   const double high = (1.0 - 0.3) / 0.4;
-  const double inside = normal_cdf(high) - normal_cdf(low);
-  const double shift = (normal_density(low) - normal_density(high)) / inside;
+  const double inside = standard_cdf(high) - standard_cdf(low);
+  const double shift = (standard_density(low) - standard_density(high)) / inside;
   const double mean = 0.3 + 0.4 * shift;
   const double variance =
-      0.16 *
-      (1.0 + (low * normal_density(low) - high * normal_density(high)) / inside - shift * shift);
+      0.16 * (1.0 + (low * standard_density(low) - high * standard_density(high)) / inside -
+              shift * shift);
   const BoundedNormal normal(mean, std::sqrt(variance), 0.0, 1.0);
   for (const double x : {0.01, 0.2, 0.5, 0.8, 0.99}) {
-    EXPECT_NEAR(normal.share_up_to(x), (normal_cdf((x - 0.3) / 0.4) - normal_cdf(low)) / inside,
+    EXPECT_NEAR(normal.share_up_to(x), (standard_cdf((x - 0.3) / 0.4) - standard_cdf(low)) / inside,
                 1e-12);
   }
   EXPECT_EQ(normal.share_up_to(-0.1), 0.0);
@@ -168,31 +168,32 @@ TEST(BoundedNormal, RefusesWhatNoNormalDistributionHas) {
 }
 
 TEST(BoundedNormal, IsDrawnByConfigsWithTheMomentsThatTheyName) {
-  constexpr int kDraws = 4000;
+  constexpr int kBoundedDraws = 4000;
   const auto expander = expander_of(
       fmt::format("seedframe: 1\nseed: 20\nscenes: {}\ncamera: {{distance_m: 1}}\nvariables: "
                   "{{scene: {{x: {{bounded_normal: {{mean: 0.785, std: 0.15, min: 0, max: 1}}}}}}}}"
                   "\n",
-                  kDraws));
+                  kBoundedDraws));
   ASSERT_TRUE(expander) << expander.error().message;
   std::vector<double> x;
   double squares = 0.0;
-  for (std::int64_t scene = 0; scene < kDraws; ++scene) {
+  for (std::int64_t scene = 0; scene < kBoundedDraws; ++scene) {
     const auto frame = expander->expand(scene, {.id = false, .graph = true});
     ASSERT_TRUE(frame) << frame.error().message;
     x.push_back(frame->graph.at("x").get<double>());
     squares += (x.back() - 0.785) * (x.back() - 0.785);
   }
-  EXPECT_NEAR(mean_of(x), 0.785, 4.0 * 0.15 / std::sqrt(kDraws));
-  EXPECT_NEAR(std::sqrt(squares / kDraws), 0.15, 4.0 * 0.15 / std::sqrt(2.0 * kDraws));
+  EXPECT_NEAR(mean_of(x), 0.785, 4.0 * 0.15 / std::sqrt(kBoundedDraws));
+  EXPECT_NEAR(std::sqrt(squares / kBoundedDraws), 0.15,
+              4.0 * 0.15 / std::sqrt(2.0 * kBoundedDraws));
   const BoundedNormal normal(0.785, 0.15, 0.0, 1.0);
   EXPECT_GT(kolmogorov_p(x, [&](double v) { return normal.share_up_to(v); }), kLeastP);
 }
 
 TEST(BoundedNormal, IsRefusedWithTheFrameThatCannotHaveIt) {
   EXPECT_THAT(scene_error("seedframe: 1\nscenes: 3\ncamera: {distance_m: 1}\nvariables: {scene: "
-                          "{x: {bounded_normal: [\"0.5 + 0.2 * scene_index\", 0.2, 0, 1]}}}\n"),
-              AllOf(HasSubstr("variables.scene.x"), HasSubstr("has mean 0.7 and std 0.2"),
+                          "{x: {bounded_normal: [\"0.5 + 0.4 * scene_index\", 0.2, 0, 1]}}}\n"),
+              AllOf(HasSubstr("variables.scene.x"), HasSubstr("has mean 0.9 and std 0.2"),
                     HasSubstr("(scene 1, frame 0 of it)")));
 }
 

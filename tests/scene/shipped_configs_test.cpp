@@ -114,29 +114,29 @@ constexpr StudyParameter kStudy[] = {{"n", "n_draw", 1, 400},
                                      {"scale", "scale", 0.2, 3}};
 
 TEST(PartsStudy, EveryNormalParameterHasTheMeanAndTheDeviationThatAreSet) {
-  constexpr int kScenes = 300;
+  constexpr int kStudyScenes = 300;
   for (const double at : {0.1, 0.5, 0.9}) {
     std::vector<Override> changes = {{"objects", "null"},
                                      {"ground", "null"},
                                      {"lights", "null"},
                                      {"frames_per_scene", "1"},
-                                     {"scenes", std::to_string(kScenes)}};
+                                     {"scenes", std::to_string(kStudyScenes)}};
     const auto mean = [&](const StudyParameter& p) { return p.min + at * (p.max - p.min); };
     // A normal one has this deviation at every one of these means, though not 0.1 without bounds.
-    const auto std = [&](const StudyParameter& p) {
+    const auto deviation = [&](const StudyParameter& p) {
       return (at == 0.5 ? 0.25 : 0.08) * (p.max - p.min);
     };
     for (const StudyParameter& p : kStudy) {
       const std::string path = std::string("variables.campaign.") + p.name;
       changes.push_back({path + "_mean", fmt::format("{}", mean(p))});
-      changes.push_back({path + "_std", fmt::format("{}", std(p))});
+      changes.push_back({path + "_std", fmt::format("{}", deviation(p))});
     }
     const auto config = read_shipped(kHome / "configs" / "parts_study.yaml", changes);
     ASSERT_TRUE(config) << config.error().message;
     const auto expander = shipped_expander(*config);
     ASSERT_TRUE(expander) << expander.error().message;
     std::map<std::string, std::vector<double>> drawn;
-    for (std::int64_t scene = 0; scene < kScenes; ++scene) {
+    for (std::int64_t scene = 0; scene < kStudyScenes; ++scene) {
       const auto frame = expander->expand(scene, {.id = false, .graph = true});
       ASSERT_TRUE(frame) << frame.error().message;
       for (const StudyParameter& p : kStudy) {
@@ -144,12 +144,13 @@ TEST(PartsStudy, EveryNormalParameterHasTheMeanAndTheDeviationThatAreSet) {
       }
     }
     for (const StudyParameter& p : kStudy) {
-      SCOPED_TRACE(fmt::format("{} with mean {} and std {}", p.name, mean(p), std(p)));
+      SCOPED_TRACE(fmt::format("{} with mean {} and std {}", p.name, mean(p), deviation(p)));
       double squares = 0.0;
       for (const double x : drawn[p.name]) squares += (x - mean(p)) * (x - mean(p));
       // 4 standard deviations of the estimates; that of the second is wider where a tail is long.
-      EXPECT_NEAR(mean_of(drawn[p.name]), mean(p), 4.0 * std(p) / std::sqrt(kScenes));
-      EXPECT_NEAR(std::sqrt(squares / kScenes), std(p), 6.0 * std(p) / std::sqrt(2.0 * kScenes));
+      EXPECT_NEAR(mean_of(drawn[p.name]), mean(p), 4.0 * deviation(p) / std::sqrt(kStudyScenes));
+      EXPECT_NEAR(std::sqrt(squares / kStudyScenes), deviation(p),
+                  6.0 * deviation(p) / std::sqrt(2.0 * kStudyScenes));
     }
   }
 }
