@@ -195,7 +195,7 @@ Result<HealedRows> heal_rows(Campaign& campaign, const PreparedCampaign& prepare
   }
   const Status written = campaign.store.write_together(JobStore::Sync::kNow, [&]() -> Status {
     auto next = rows.begin();
-    const Status added = campaign.store.add_frames([&]() -> Result<std::optional<FrameRow>> {
+    Status added = campaign.store.add_frames([&]() -> Result<std::optional<FrameRow>> {
       while (next != rows.end() && ids[static_cast<std::size_t>(next->frame)]) ++next;
       if (next == rows.end()) return std::nullopt;
       return *next++;

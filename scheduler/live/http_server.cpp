@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kThreads = 4;
 constexpr std::size_t kMostBody = 1024;  // no request has any
-constexpr time_t kPatience_s = 5;
+constexpr time_t kPatienceSeconds = 5;
 
 std::string lower_case(std::string text) {
   for (char& c : text) {
@@ -51,8 +51,8 @@ Result<HttpServer> HttpServer::bind(int port) {
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   // A connection that is kept would be looked at a hundred times a second.
   server.set_keep_alive_max_count(1);
-  server.set_read_timeout(kPatience_s);
-  server.set_write_timeout(kPatience_s);
+  server.set_read_timeout(kPatienceSeconds);
+  server.set_write_timeout(kPatienceSeconds);
   server.set_payload_max_length(kMostBody);
   constexpr const char* kAddress = "127.0.0.1";
   if (port == 0) {

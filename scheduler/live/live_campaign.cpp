@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/clock.h"
 #include "base/cores.h"
@@ -215,7 +216,9 @@ Result<std::string> LiveCampaign::thumbnail(std::int64_t frame) {
   if (!manifest) return forward_error(manifest);
   const double scale =
       std::min(1.0, static_cast<double>(kThumbnailSide) / std::max(labels->width, labels->height));
-  const auto side = [scale](int px) { return std::max(1, static_cast<int>(scale * px + 0.5)); };
+  const auto side = [scale](int px) {
+    return std::max(1, static_cast<int>(std::lround(scale * px)));
+  };
   const FrameDigest digest =
       digest_frame(committed, labels->categories, manifest->pixel_hashes.contains("image"),
                    {side(labels->width), side(labels->height)});

@@ -37,7 +37,7 @@ std::optional<std::string> after(const std::string& text, std::string_view prefi
 
 Result<std::unique_ptr<LiveSite>> LiveSite::open(const std::vector<std::filesystem::path>& folders,
                                                  const std::filesystem::path& home, Gate gate,
-                                                 RunControl& control, LiveClock clock) {
+                                                 RunControl& control, const LiveClock& clock) {
   std::unique_ptr<LiveSite> site(new LiveSite(std::move(gate), control));
   for (const std::filesystem::path& folder : folders) {
     Result<LiveCampaign> campaign = LiveCampaign::open(folder, home, clock);

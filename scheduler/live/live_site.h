@@ -28,7 +28,7 @@ class LiveSite {
   /// `control` must outlive it.
   static Result<std::unique_ptr<LiveSite>> open(const std::vector<std::filesystem::path>& folders,
                                                 const std::filesystem::path& home, Gate gate,
-                                                RunControl& control, LiveClock clock);
+                                                RunControl& control, const LiveClock& clock);
 
   HttpResponse answer(const HttpRequest& request);
 

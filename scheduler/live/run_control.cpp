@@ -195,6 +195,7 @@ Status ProcessControl::resume(const Campaign& campaign, std::optional<std::int64
   if (frame) words.insert(words.end(), {"--frame", std::to_string(*frame)});
   words.insert(words.end(), resume_options_.begin(), resume_options_.end());
   std::vector<const char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (const std::string& word : words) pointers.push_back(word.c_str());
   pointers.push_back(nullptr);
   if (Status made = make_folders(campaign.files.logs()); !made) return made;

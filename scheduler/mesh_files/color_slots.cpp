@@ -71,8 +71,8 @@ bool give_colors_slots(const std::vector<ColorCode>& colors, FileMesh& file) {
     const auto [known, is_new] =
         slots.try_emplace({slot, color}, static_cast<std::uint32_t>(mesh.slot_names.size()));
     if (is_new) {
-      const std::string hex = fmt::format("{:06x}", color);
-      mesh.slot_names.push_back(name == "default" ? hex : name + "_" + hex);
+      mesh.slot_names.push_back(name == "default" ? fmt::format("{:06x}", color)
+                                                  : fmt::format("{}_{:06x}", name, color));
       FileMaterial plain;
       plain.base_color = {1.0, 1.0, 1.0};
       file.materials.insert_or_assign(mesh.slot_names.back(),

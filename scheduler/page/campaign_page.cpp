@@ -68,8 +68,8 @@ class PageMaker {
 
   const Campaign& campaign_;
   const PreparedCampaign* prepared_;
-  const PageWish wish_;
-  const ToldText told_;
+  PageWish wish_;
+  ToldText told_;
   KeptInputs inputs_;
   bool knows_inputs_ = true;  ///< false: a frame has to tell
   std::vector<std::string> provenances_;

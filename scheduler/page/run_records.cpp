@@ -39,7 +39,9 @@ Json picture_json(const fs::path& png) {
   }
   const double scale =
       std::min(1.0, static_cast<double>(kPictureSide) / std::max(rgb.width, rgb.height));
-  const auto side = [scale](int px) { return std::max(1, static_cast<int>(scale * px + 0.5)); };
+  const auto side = [scale](int px) {
+    return std::max(1, static_cast<int>(std::lround(scale * px)));
+  };
   const Result<std::string> webp = encode_image(reduced(rgb, {side(rgb.width), side(rgb.height)}),
                                                 {.format = ImageFormat::kWebp, .quality = 80});
   return webp ? Json(base64(*webp)) : Json();

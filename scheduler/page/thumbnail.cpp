@@ -36,7 +36,7 @@ std::uint8_t code_of_linear(double linear) {
     }
     return codes;
   }();
-  return table[static_cast<std::size_t>(std::clamp(linear, 0.0, 1.0) * kLinearSteps + 0.5)];
+  return table[static_cast<std::size_t>(std::lround(std::clamp(linear, 0.0, 1.0) * kLinearSteps))];
 }
 
 /// Which source pixels a pixel covers along one axis, and how much of the first and the last.
