@@ -106,8 +106,8 @@ TEST_F(HealingTest, RowsOfFramesThatThereAreNotAreNamed) {
 
 TEST_F(HealingTest, OverwriteRemovesACampaignAndNothingElseAndOnlyIfItMay) {
   const auto submit_over = [this](const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"submit", "labels.yaml", "-o", "c", "--quiet",
-                                      "--set",  "scenes=1",    "--overwrite"};
+    std::vector<std::string> words = {"submit",  "labels.yaml", "-o",       "c",
+                                      "--quiet", "--set",       "scenes=1", "--overwrite"};
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   };
