@@ -1,6 +1,8 @@
 // seedframe report: a campaign as a page.
 
+#include <fstream>
 #include <memory>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -41,6 +43,19 @@ void print_report(const WrittenReport& written, const std::filesystem::path& fil
   }
 }
 
+/// A file that is there is replaced only if it is a page.
+Status check_replaceable(const std::filesystem::path& file) {
+  constexpr std::string_view kBeginning = "<!doctype html>";
+  std::ifstream stream(file, std::ios::binary);
+  std::string beginning(kBeginning.size(), '\0');
+  if (!stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()))) {
+    beginning.resize(static_cast<std::size_t>(stream.gcount()));
+  }
+  if (beginning.empty() || beginning == kBeginning) return {};
+  return fail(ErrorKind::kInput, "{} is there, and is no page: give another file with -o",
+              file.string());
+}
+
 int make_report(const ReportArguments& arguments) {
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
@@ -56,6 +71,7 @@ int make_report(const ReportArguments& arguments) {
   wish.page.threads = core_count();
   wish.file =
       arguments.output.empty() ? campaign->files.report() : std::filesystem::path(arguments.output);
+  if (Status free = check_replaceable(wish.file); !free) return report(free.error());
   const Result<WrittenReport> written =
       write_report(*campaign, prepared ? &*prepared : nullptr,
                    prepared ? std::string() : prepared.error().message, wish);

@@ -40,7 +40,7 @@ std::vector<std::filesystem::path> CampaignFiles::own() const {
   for (const char* name :
        {"campaign.sqlite", "campaign.sqlite-wal", "campaign.sqlite-shm", "campaign.sqlite-journal",
         "campaign.sqlite.new", "campaign.yaml", "campaign.lock", "provenance.json", "inputs",
-        "frames", "rejected", "audit", "exports", "logs", "work"}) {
+        "frames", "rejected", "audit", "exports", "report.html", "report_files", "logs", "work"}) {
     all.push_back(root_ / name);
   }
   return all;

@@ -120,7 +120,10 @@ TEST_F(HealingTest, OverwriteRemovesACampaignAndNothingElseAndOnlyIfItMay) {
   EXPECT_EQ(strange.exit_code, 2);
   EXPECT_THAT(strange.errors, HasSubstr("notes.txt"));
   EXPECT_EQ(dataset_hash(), hash_);
+  EXPECT_EQ(run({"report", "c", "-o", "c/notes.txt"}).exit_code, 2) << "it is no page";
+  EXPECT_EQ(*read_file(folder_ / "c/notes.txt"), "mine");
   fs::remove(folder_ / "c/notes.txt");
+  EXPECT_EQ(run({"report", "c"}).exit_code, 0);
   const Outcome made = submit_over({"--yes"});
   EXPECT_EQ(made.exit_code, 0) << made.errors;
   EXPECT_EQ(status("c").at("done"), 2);
