@@ -6,6 +6,7 @@
 #include "mesh_files/draco_codec.h"
 
 namespace seedframe {
+namespace fs = std::filesystem;
 namespace {
 
 // The stream says how many slots it uses, asset.json how they are called.
@@ -18,13 +19,29 @@ Status name_slots(Mesh& mesh, const AssetDescription& description, const std::st
   return {};
 }
 
+/// The bytes of a stored mesh: of its copy, if there is one that is whole.
+Result<std::string> read_stored(const fs::path& file, const std::string& sha256,
+                                const fs::path& copies) {
+  if (copies.empty()) return read_file(file);
+  const fs::path copy = copies / (sha256 + ".drc");
+  std::error_code missing;
+  if (fs::exists(copy, missing)) {
+    Result<std::string> bytes = read_file(copy);
+    if (bytes && sha256_hex(*bytes) == sha256) return bytes;
+  }
+  Result<std::string> bytes = read_file(file);
+  // Without a copy the next one reads the file itself: slower, not wrong.
+  if (bytes) (void)write_file_atomically(copy, *bytes);
+  return bytes;
+}
+
 }  // namespace
 
-Result<Mesh> read_level_mesh(const std::filesystem::path& folder,
-                             const AssetDescription& description, std::size_t level) {
+Result<Mesh> read_level_mesh(const fs::path& folder, const AssetDescription& description,
+                             std::size_t level, const fs::path& copies) {
   const LevelRecord& record = description.levels[level];
   const std::string what = (folder / record.file).string();
-  const auto stream = read_file(folder / record.file);
+  const auto stream = read_stored(folder / record.file, record.sha256, copies);
   if (!stream) return forward_error(stream);
   const std::string sha256 = sha256_hex(*stream);
   if (sha256 != record.sha256) {

@@ -52,10 +52,10 @@ Status check_files(const fs::path& folder, const AllowedFolders& allowed) {
 
 }  // namespace
 
-Result<Asset> read_asset(const fs::path& folder) {
+Result<Asset> read_asset(const fs::path& folder, const fs::path& copies) {
   const auto description = read_asset_description(folder);
   if (!description) return forward_error(description);
-  auto mesh = read_level_mesh(folder, *description, 0);
+  auto mesh = read_level_mesh(folder, *description, 0, copies);
   if (!mesh) return forward_error(mesh);
   Asset asset;
   asset.name = description->name;
@@ -85,6 +85,7 @@ Result<Asset> read_asset(const fs::path& folder) {
 
 struct AssetLibrary::State {
   AllowedFolders allowed;
+  fs::path copies;
   std::map<std::string, fs::path> folders;
   std::mutex mutex;
   // Guarded by mutex.
@@ -94,10 +95,11 @@ struct AssetLibrary::State {
 
 AssetLibrary::AssetLibrary(std::shared_ptr<State> state) : state_(std::move(state)) {}
 
-Result<AssetLibrary> AssetLibrary::open(const std::vector<fs::path>& roots,
-                                        AllowedFolders allowed) {
+Result<AssetLibrary> AssetLibrary::open(const std::vector<fs::path>& roots, AllowedFolders allowed,
+                                        const fs::path& copies) {
   auto state = std::make_shared<State>();
   state->allowed = std::move(allowed);
+  state->copies = copies;
   for (const fs::path& root : roots) state->allowed.add(root);
   for (const fs::path& root : roots) {
     const auto names = find_assets(root);
@@ -132,7 +134,7 @@ Result<std::shared_ptr<const Asset>> AssetLibrary::load(const std::string& name)
   }
   const auto asset_folder = folder(name);
   if (!asset_folder) return forward_error(asset_folder);
-  auto asset = read_asset(*asset_folder);
+  auto asset = read_asset(*asset_folder, state_->copies);
   if (!asset) return forward_error(asset);
   auto shared = std::make_shared<const Asset>(std::move(*asset));
   state_->loaded.emplace(name, shared);
@@ -154,7 +156,7 @@ Result<std::shared_ptr<const LevelMesh>> AssetLibrary::load_level(const std::str
     return fail(ErrorKind::kInput, "asset '{}' has {} levels of detail, there is no level {}", name,
                 description->levels.size(), level);
   }
-  auto mesh = read_level_mesh(*asset_folder, *description, level);
+  auto mesh = read_level_mesh(*asset_folder, *description, level, state_->copies);
   if (!mesh) return forward_error(mesh);
   if (!has_uvs(*mesh)) project_uvs(*mesh);
   LevelMesh read{.mesh = std::move(*mesh), .buffer = {}, .buffer_sha256 = {}};

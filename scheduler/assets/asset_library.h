@@ -56,9 +56,11 @@ class AssetLibrary {
  public:
   /// A root that is not a folder is an error. Looks for names only; meshes are read by load. Files
   /// of an asset lie in one of the roots or in an allowed folder, also after symbolic links are
-  /// followed; folder() and load() refuse an asset with others (kInput).
+  /// followed; folder() and load() refuse an asset with others (kInput). `copies`: a folder that is
+  /// nearer than the roots; meshes are kept there by their hashes and read there if they are there.
   static Result<AssetLibrary> open(const std::vector<std::filesystem::path>& roots,
-                                   AllowedFolders allowed = {});
+                                   AllowedFolders allowed = {},
+                                   const std::filesystem::path& copies = {});
 
   /// Sorted.
   std::vector<std::string> names() const;
@@ -83,6 +85,7 @@ class AssetLibrary {
 };
 
 /// Reads one asset's folder, whatever its library; of its levels only the first.
-Result<Asset> read_asset(const std::filesystem::path& folder);
+Result<Asset> read_asset(const std::filesystem::path& folder,
+                         const std::filesystem::path& copies = {});
 
 }  // namespace seedframe

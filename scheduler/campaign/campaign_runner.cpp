@@ -75,7 +75,8 @@ Result<RunSummary> CampaignRunner::run(const std::vector<PendingFrame>& frames) 
   if (Status written = provenance->write(); !written) return forward_error(written);
   last_.reset();  // looks at the provenance
   provenance_ = std::move(*provenance);
-  last_ = make_run(campaign_, prepared_, *provenance_, setup_, *observer_);
+  const MakeRun& make = setup_.make ? setup_.make : make_run;
+  last_ = make(campaign_, prepared_, *provenance_, setup_, *observer_);
   run_ = last_.get();
   for (int drain = drains_; drain > 0; --drain) last_->drain();  // that came between two runs
   Result<RunSummary> summary = last_->run(frames);

@@ -1,6 +1,5 @@
 #include "campaign/finish_stage.h"
 
-#include "base/clock.h"
 #include "base/files.h"
 
 namespace seedframe {
@@ -23,8 +22,9 @@ Status FinishStage::open() {
   return {};
 }
 
-void FinishStage::begin(const FrameJob& job, int worker, const std::string& provenance) {
-  writer_->push(AttemptStarted{job, worker, unix_time(), provenance});
+void FinishStage::begin(const FrameJob& job, int worker, const std::string& provenance,
+                        double started) {
+  writer_->push(AttemptStarted{job, worker, started, provenance});
 }
 
 void FinishStage::fail(const FrameJob& job, AttemptFailure failure) {

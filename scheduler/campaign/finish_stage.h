@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "campaign/campaign.h"
 #include "campaign/campaign_run.h"
@@ -46,7 +47,9 @@ class FinishStage {
   /// In one of the threads, after what was pushed before.
   void push(std::function<void()> work) { queue_->push(std::move(work)); }
 
-  void begin(const FrameJob& job, int worker, const std::string& provenance);
+  /// `started`: Unix time, seconds.
+  void begin(const FrameJob& job, int worker, const std::string& provenance,
+             double started = unix_time());
   /// Its files lie in the attempt's folder.
   void commit(FrameFinished frame) { writer_->push(std::move(frame)); }
   /// The attempt's folder goes.

@@ -147,6 +147,12 @@ Result<std::string> Provenance::of_worker(const ReadyMessage& ready) {
   return add(json_of_worker(ready));
 }
 
+Result<std::string> Provenance::of_record(const std::string& attempt) {
+  Result<Json> json = parse_json(attempt, "the provenance of an attempt");
+  if (!json) return forward_error(json);
+  return add(std::move(*json));
+}
+
 Result<std::string> Provenance::of_twin() { return add(common_); }
 
 Result<std::string> Provenance::add(Json attempt) {

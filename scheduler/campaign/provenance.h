@@ -34,6 +34,8 @@ class Provenance {
   std::string text_of_worker(const ReadyMessage& ready) const;
   /// The same; it goes into provenance.json if it is new.
   Result<std::string> of_worker(const ReadyMessage& ready);
+  /// Of attempts that another machine has made, as its Provenance tells it. kCorrupt: it does not.
+  Result<std::string> of_record(const std::string& attempt);
   /// A sentence, if the campaign's earlier runs were made with others, so that pixels may differ.
   std::string departure(const std::string& attempt) const;
   /// Of attempts without a worker.

@@ -27,6 +27,7 @@ RenderRun::RenderRun(Campaign& campaign, const PreparedCampaign& prepared, Prove
       prepared_(prepared),
       provenance_(provenance),
       color_(setup.color),
+      meshes_(setup.options.meshes.empty() ? campaign.files.meshes() : setup.options.meshes),
       room_needed_(room_for_attempts(setup)),
       cached_(setup.cache,
               setup.options.no_cache ? CachedFrames::Use::kAdd : CachedFrames::Use::kTakeAndAdd,
@@ -75,7 +76,7 @@ Result<RunSummary> RenderRun::run(const std::vector<PendingFrame>& frames) {
 Result<RunSummary> RenderRun::run_once(const std::vector<PendingFrame>& frames,
                                        const FrameIds& found) {
   for (const fs::path& folder :
-       {campaign_.files.logs(), campaign_.files.work() / "meshes", campaign_.files.workers()}) {
+       {campaign_.files.logs(), campaign_.files.meshes(), campaign_.files.workers()}) {
     if (Status made = make_folders_in(campaign_.files.root(), folder); !made)
       return forward_error(made);
   }
@@ -187,9 +188,9 @@ Result<std::optional<RenderRequest>> RenderRun::request(const FrameJob& job) {
   const CampaignFiles& files = campaign_.files;
   const fs::path given = files.workers() / CampaignFiles::attempt_name(job.frame, job.attempt);
   if (Status made = make_folders_in(files.root(), given); !made) return forward_error(made);
-  Result<RenderRequest> request = make_render_request(
-      *expanded, rendered_passes(given),
-      [this](const auto& sha256) { return campaign_.files.mesh_buffer(sha256); });
+  Result<RenderRequest> request =
+      make_render_request(*expanded, rendered_passes(given),
+                          [this](const auto& sha256) { return meshes_ / (sha256 + ".mesh"); });
   if (!request) return forward_error(request);
   tasks_[job] = {std::move(expanded->spec), std::move(expanded->id), std::move(expanded->meshes),
                  files.attempt(job.frame, job.attempt), files.rejected(job.frame)};

@@ -84,7 +84,8 @@ class RenderRun : public CampaignRun, private RenderClient, private FinishClient
   const PreparedCampaign& prepared_;
   Provenance& provenance_;
   std::shared_ptr<const ColorManagement> color_;
-  DiskRoom room_needed_;  ///< that frames under way may still take
+  std::filesystem::path meshes_;  ///< folder of mesh buffers
+  DiskRoom room_needed_;          ///< that frames under way may still take
   CachedFrames cached_;
   FrameFinisher finisher_;
   std::map<FrameJob, FinishTask> tasks_;  ///< requested and not yet rendered

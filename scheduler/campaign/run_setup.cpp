@@ -14,6 +14,10 @@
 namespace seedframe {
 namespace {
 
+int cores_for(const RunOptions& options) {
+  return options.cores > 0 ? options.cores : core_count();
+}
+
 void choose_workers_to_render(RunOptions& options, const CampaignSettings& settings,
                               std::int64_t frames) {
   const RenderSettings& render = settings.render;
@@ -22,10 +26,10 @@ void choose_workers_to_render(RunOptions& options, const CampaignSettings& setti
   // One worker has all devices that are not the CPU, and feeds them with all cores.
   const WorkerPlan plan =
       settings.device == RenderDevice::kCpu
-          ? choose_workers(render.width, render.height, render.samples, frames, core_count())
-          : WorkerPlan{1, core_count()};
+          ? choose_workers(render.width, render.height, render.samples, frames, cores_for(options))
+          : WorkerPlan{1, cores_for(options)};
   if (threads == 0) {
-    threads = pool.workers > 0 ? std::max(1, core_count() / pool.workers) : plan.threads;
+    threads = pool.workers > 0 ? std::max(1, cores_for(options) / pool.workers) : plan.threads;
   }
   if (pool.workers == 0) pool.workers = plan.workers;
   constexpr double kShare = 0.8;
@@ -38,9 +42,9 @@ void choose_workers_to_render(RunOptions& options, const CampaignSettings& setti
 void choose_threads_to_trace(RunOptions& options, std::int64_t frames) {
   int& workers = options.pool.workers;
   int& threads = options.worker.threads;
-  const std::int64_t at_once = std::clamp<std::int64_t>(frames, 1, core_count());
+  const std::int64_t at_once = std::clamp<std::int64_t>(frames, 1, cores_for(options));
   if (workers == 0) workers = static_cast<int>(at_once);
-  if (threads == 0) threads = std::max(1, core_count() / workers);
+  if (threads == 0) threads = std::max(1, cores_for(options) / workers);
 }
 
 Result<RunSetup> set_up_rendering(RunOptions options, const RunPlaces& places,
@@ -140,6 +144,7 @@ Result<RunSetup> set_up_run(RunOptions options, const RunPlaces& places,
 std::string describe(const RunSetup& setup) {
   const int workers = setup.options.pool.workers;
   const int threads = setup.options.worker.threads;
+  if (setup.make) return "tasks of Slurm, which choose their workers";
   if (!setup.color) {
     return fmt::format("{} frames at once, threads each: {}, without Blender", workers, threads);
   }

@@ -45,7 +45,8 @@ struct RunPlaces {
 Result<RunSetup> set_up_run(RunOptions options, const RunPlaces& places,
                             const CampaignSettings& settings, std::int64_t frames);
 
-/// "2 × Blender 3.4.1, threads each: 1", or "2 frames at once, threads each: 1, without Blender".
+/// "2 × Blender 3.4.1, threads each: 1", or "2 frames at once, threads each: 1, without Blender",
+/// or that others choose.
 std::string describe(const RunSetup& setup);
 
 }  // namespace seedframe

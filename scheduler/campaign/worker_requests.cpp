@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include "base/files.h"
 #include "render/sandbox.h"
 
@@ -36,6 +39,7 @@ WorkerOptions worker_options(const RunOptions& options, const fs::path& work,
     std::vector<fs::path> inputs = options.input_folders;
     inputs.push_back(worker.scripts);
     inputs.push_back(worker.preload);
+    if (!options.meshes.empty()) inputs.push_back(options.meshes);
     const BlenderProgram& blender = worker.blender;
     inputs.push_back(blender.path.parent_path());
     if (!blender.module
@@ -62,10 +66,13 @@ Result<RenderRequest> make_render_request(
   for (const auto& [sha256, buffer] : frame.meshes) {
     const fs::path path = mesh_path(sha256);
     if (!fs::exists(path, error)) {
-      // Scratch: nobody reads it after a crash.
-      if (Status written = write_file_unsynced(path, *buffer); !written) {
+      // Scratch: nobody reads it after a crash. Whole under its name, for who shares the folder.
+      const fs::path part = path.string() + fmt::format(".{}.part", ::getpid());
+      if (Status written = write_file_unsynced(part, *buffer); !written) {
         return forward_error(written);
       }
+      fs::rename(part, path, error);
+      if (error) return system_failure("rename", part, error.value());
     }
     request.meshes[sha256] = fs::absolute(path, error);
   }

@@ -10,6 +10,7 @@
 #include "campaign/input_images.h"
 #include "cli/verb.h"
 #include "console/arguments.h"
+#include "console/executor_options.h"
 #include "console/exit_code.h"
 #include "console/home.h"
 #include "console/run_campaign.h"
@@ -29,6 +30,7 @@ struct ResumeArguments {
   bool raise = false;
   bool yes = false;
   RunOptions run;
+  ExecutorOptions executor;
 };
 
 void print_added(const RenewedFrames& renewed) {
@@ -124,6 +126,17 @@ Result<std::vector<std::int64_t>> raise_measured(Campaign& campaign, PreparedCam
   return frames;
 }
 
+/// A run on this machine makes the frames that tasks of Slurm may still be making.
+void tell_of_tasks(const CampaignFiles& files) {
+  std::error_code missing;
+  if (!std::filesystem::exists(files.slurm(), missing)) return;
+  say_aside(
+      "seedframe: note: tasks of Slurm may be at work for {0}, and this run does not wait for "
+      "them: "
+      "'scancel --name={1}' ends them, --executor slurm would go on with them\n",
+      files.root().string(), files.root().filename().string());
+}
+
 int resume(ResumeArguments arguments) {
   Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
@@ -174,6 +187,13 @@ int resume(ResumeArguments arguments) {
   if (!setup) return report(setup.error());
   print_notes(*setup);
   if (!arguments.frames.empty()) setup->options.no_cache = true;  // "render", it says
+  const auto executor = choose_executor(arguments.executor, &campaign->store);
+  if (!executor) return report(executor.error());
+  if (Status kept = remember_executor(*executor, campaign->store); !kept) {
+    return report(kept.error());
+  }
+  use_executor(*executor, arguments.run, *setup);
+  if (!*executor) tell_of_tasks(campaign->files);
   const int code =
       run_campaign(*campaign, *prepared, renewed->used, *setup, std::move(state->to_render));
   if (!raised.empty()) {
@@ -212,6 +232,7 @@ void add_resume_verb(CLI::App& app, const OnSelected& on_selected) {
       "read every finished frame and compare it with its manifest, however untouched it looks, "
       "and check the store: its file, and that every frame has the row that it should have");
   add_run_options(*verb, arguments->run);
+  add_executor_options(*verb, arguments->executor);
   verb->footer("Example: seedframe resume results/parts");
   verb->callback(
       [arguments, on_selected] { on_selected([arguments] { return resume(*arguments); }); });

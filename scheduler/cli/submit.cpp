@@ -15,6 +15,7 @@
 #include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/choose_settings.h"
+#include "console/executor_options.h"
 #include "console/exit_code.h"
 #include "console/home.h"
 #include "console/progress.h"
@@ -40,6 +41,7 @@ struct SubmitArguments {
   bool yes = false;
   int pilots = 0;  ///< frames to be made in a dry run
   RunOptions run;
+  ExecutorOptions executor;
 };
 
 Result<PreparedCampaign> prepare_submission(const SubmitArguments& arguments) {
@@ -133,6 +135,8 @@ int tell_costs(const SubmitArguments& arguments, const PreparedCampaign& prepare
 
 int submit(const SubmitArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
+  const auto executor = choose_executor(arguments.executor, nullptr);
+  if (!executor) return report(executor.error());
   Result<PreparedCampaign> prepared = prepare_submission(arguments);
   if (!prepared) return report(prepared.error());
   const std::filesystem::path folder =
@@ -154,6 +158,7 @@ int submit(const SubmitArguments& arguments) {
   if (!setup) return report(setup.error());
   print_notes(*setup);
   if (arguments.dry_run) {
+    if (*executor) say("by tasks of Slurm; what follows is told for this machine\n");
     print_plan(*prepared, *summary, *setup, wanted, folder);
     const std::chrono::duration<double> prepared_s = std::chrono::steady_clock::now() - begin;
     return tell_costs(arguments, *prepared, *setup, wanted, folder, prepared_s.count());
@@ -171,6 +176,10 @@ int submit(const SubmitArguments& arguments) {
   if (!created) return report(created.error());
   Campaign& campaign = created->campaign;
   if (Status begun = begin_run(campaign); !begun) return report(begun.error());
+  if (Status kept = remember_executor(*executor, campaign.store); !kept) {
+    return report(kept.error());
+  }
+  use_executor(*executor, arguments.run, *setup);
   std::vector<PendingFrame> pending;
   for (std::int64_t frame = 0; frame < wanted; ++frame) pending.push_back({frame});
   return run_campaign(campaign, *prepared, summary->used, *setup, std::move(pending));
@@ -205,6 +214,7 @@ void add_submit_verb(CLI::App& app, const OnSelected& on_selected) {
                                ->excludes(dry_run);
   verb->add_flag("--yes", arguments->yes, "with --overwrite: without asking")->needs(overwrite);
   add_run_options(*verb, arguments->run);
+  add_executor_options(*verb, arguments->executor);
   verb->footer(
       "Example: seedframe submit configs/parts.yaml -o results/parts --set render.samples=16");
   verb->callback(

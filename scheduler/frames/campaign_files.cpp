@@ -19,10 +19,6 @@ fs::path CampaignFiles::crash_log(std::int64_t frame, int attempt) const {
   return logs() / fmt::format("crash-{}-{}.log", frame_stem(frame), attempt);
 }
 
-fs::path CampaignFiles::mesh_buffer(const std::string& sha256) const {
-  return work() / "meshes" / (sha256 + ".mesh");
-}
-
 fs::path CampaignFiles::attempt(std::int64_t frame, int attempt) const {
   return work() / "attempts" / attempt_name(frame, attempt);
 }
@@ -40,7 +36,7 @@ std::vector<std::filesystem::path> CampaignFiles::own() const {
   for (const char* name :
        {"campaign.sqlite", "campaign.sqlite-wal", "campaign.sqlite-shm", "campaign.sqlite-journal",
         "campaign.sqlite.new", "campaign.yaml", "campaign.lock", "provenance.json", "inputs",
-        "frames", "rejected", "audit", "exports", "report.html", "report_files", "logs", "work"}) {
+        "frames", "rejected", "audit", "exports", "report.html", "report_files", "logs", "work", "slurm", "nodes.json"}) {
     all.push_back(root_ / name);
   }
   return all;

@@ -38,12 +38,20 @@ class CampaignFiles {
   }
   /// The page that `seedframe report` makes; beside it, for many frames, report_files/.
   std::filesystem::path report() const { return root_ / "report.html"; }
+  /// What a run by Slurm and its tasks tell each other (slurm/submission.h), a folder for each
+  /// submission, and what the tasks print. Gone when nothing runs and nothing was lost.
+  std::filesystem::path slurm() const { return root_ / "slurm"; }
+  std::filesystem::path slurm_logs() const { return slurm() / "logs"; }
+  /// How far that is: written by the head, read by `seedframe status`.
+  std::filesystem::path slurm_state() const { return slurm() / "state.json"; }
+  /// The names of the nodes that have made frames; kNodeWorkers of workers are each one's.
+  std::filesystem::path nodes() const { return root_ / "nodes.json"; }
   /// What was rendered of a frame that is not as its twin sees it, for inspection.
   std::filesystem::path rejected(std::int64_t frame) const;
   /// Scratch space: mesh buffers for the workers and attempts under way. Gone when nothing runs.
   std::filesystem::path work() const { return root_ / "work"; }
   std::filesystem::path disk_probe() const { return work() / "probe"; }
-  std::filesystem::path mesh_buffer(const std::string& sha256) const;
+  std::filesystem::path meshes() const { return work() / "meshes"; }
   /// A frame in the making, where no worker gets.
   std::filesystem::path attempt(std::int64_t frame, int attempt) const;
   /// All that workers may write to: their temporary files, and a folder for each attempt.

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/sha256.h"
+#include "render/child_process.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -21,11 +22,6 @@ constexpr const char* kProgramRemedy =
 constexpr const char* kModuleRemedy =
     "name the folder of a virtual environment that has it, such as scripts/setup.sh --blender 4.5 "
     "makes";
-
-bool is_program(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
-}
 
 Result<fs::path> find_program(const std::string& program) {
   if (program.find('/') != std::string::npos) {
@@ -41,14 +37,7 @@ Result<fs::path> find_program(const std::string& program) {
     }
     return path;
   }
-  const char* variable = std::getenv("PATH");
-  std::string folders = variable == nullptr ? "/usr/bin:/bin" : variable;
-  for (std::size_t begin = 0; begin <= folders.size();) {
-    const std::size_t end = std::min(folders.find(':', begin), folders.size());
-    const fs::path path = fs::path(folders.substr(begin, end - begin)) / program;
-    if (is_program(path)) return fs::absolute(path);
-    begin = end + 1;
-  }
+  if (const auto path = find_in_path(program)) return *path;
   return fail(ErrorKind::kEnvironment, "Blender not found: no program '{}' in PATH; {}", program,
               kProgramRemedy);
 }

@@ -71,6 +71,7 @@ void apply(const ResourceLimits& limits) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   signal(SIGPIPE, SIG_DFL);  // ignored signals stay ignored after exec
+  if (command.ignores_terminate) signal(SIGTERM, SIG_IGN);
 
   apply(command.limits);
 
@@ -228,15 +229,26 @@ std::string describe_wait_status(const std::optional<int>& status) {
   return fmt::format("exited with status {}", WEXITSTATUS(*status));
 }
 
+bool is_program(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
+}
+
 Result<std::string> output_of(const std::vector<std::string>& arguments,
                               std::chrono::milliseconds longest, const Variables& changes) {
+  return output_in(worker_environment(changes), arguments, longest);
+}
+
+Result<std::string> output_in(std::vector<std::string> environment,
+                              const std::vector<std::string>& arguments,
+                              std::chrono::milliseconds longest) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
     return fail(ErrorKind::kEnvironment, "cannot make a pipe: {}", std::strerror(errno));
   }
   ChildCommand command;
   command.arguments = arguments;
-  command.environment = worker_environment(changes);
+  command.environment = std::move(environment);
   command.output = ends[1];
   const Result<pid_t> child = start_child(command);
   close(ends[1]);
@@ -257,6 +269,25 @@ Result<std::string> output_of(const std::vector<std::string>& arguments,
                 text.substr(text.size() - std::min<std::size_t>(text.size(), 500)));
   }
   return text;
+}
+
+std::optional<std::filesystem::path> find_in_path(const std::string& name) {
+  const char* variable = std::getenv("PATH");
+  const std::string folders = variable == nullptr ? "/usr/bin:/bin" : variable;
+  for (std::size_t begin = 0; begin <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', begin), folders.size());
+    const std::filesystem::path path =
+        std::filesystem::path(folders.substr(begin, end - begin)) / name;
+    if (is_program(path)) return std::filesystem::absolute(path);
+    begin = end + 1;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> own_environment() {
+  std::vector<std::string> all;
+  for (char** entry = environ; *entry != nullptr; ++entry) all.emplace_back(*entry);
+  return all;
 }
 
 std::vector<std::string> worker_environment(const Variables& changes) {

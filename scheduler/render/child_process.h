@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,9 @@ struct ChildCommand {
   int output = -1;                       ///< becomes stdout and stderr
   int channel = -1;                      ///< becomes kChildChannel; -1: none
   int cpu = -1;                          ///< the one CPU that it starts on; -1: any of ours
-  ResourceLimits limits;                 ///< and never a core dump
+  /// SIGTERM, which a batch system sends to all that belongs to a job, is for us to act on.
+  bool ignores_terminate = false;
+  ResourceLimits limits;  ///< and never a core dump
 };
 
 /// The descriptor under which a child finds its channel.
@@ -58,6 +61,19 @@ using Variables = std::vector<std::pair<std::string, std::string>>;
 /// when it cannot be started, takes longer or ends with another status than 0.
 Result<std::string> output_of(const std::vector<std::string>& arguments,
                               std::chrono::milliseconds longest, const Variables& changes = {});
+
+/// The same in another environment, complete as "NAME=value".
+Result<std::string> output_in(std::vector<std::string> environment,
+                              const std::vector<std::string>& arguments,
+                              std::chrono::milliseconds longest);
+
+/// A program by its name, absolute; none if no folder of PATH has it.
+std::optional<std::filesystem::path> find_in_path(const std::string& name);
+/// Whether there is a file that we may execute.
+bool is_program(const std::filesystem::path& path);
+
+/// Our environment as it is.
+std::vector<std::string> own_environment();
 
 /// Our environment without what would change how Blender or its Python behave (PATH, PYTHON*,
 /// BLENDER_USER_*, OCIO), with `changes` on top.

@@ -100,6 +100,7 @@ Result<std::shared_ptr<LocalWorker>> LocalWorker::start(const WorkerOptions& opt
   child.channel = pipes.channel[1];
   child.cpu = next_start_cpu();
   child.limits = options.limits;
+  child.ignores_terminate = options.ignores_terminate;
   const Result<pid_t> pid = start_child(child);
   if (!pid) return forward_error(pid);
   const int pid_fd = static_cast<int>(syscall(SYS_pidfd_open, *pid, 0));  // close-on-exec by itself

@@ -23,6 +23,7 @@ struct WorkerOptions {
   WorkerConditions conditions;
   /// Set in a worker's environment on top of worker_environment and environment_of.
   std::map<std::string, std::string> environment;
+  bool ignores_terminate = false;    ///< see ChildCommand
   std::vector<std::string> wrapper;  ///< a program that starts it, see sandbox.h
   ResourceLimits limits;             ///< that no worker gets beyond
   /// Processes that the kernel has killed for lack of memory since it started.

@@ -42,7 +42,7 @@ Result<PreparedCampaign> prepare(CampaignSource source) {
   asset_folders.push_back(source.home / "assets");
   std::vector<fs::path> material_folders = config->material_folders;
   material_folders.push_back(source.home / "materials");
-  Result<AssetLibrary> assets = AssetLibrary::open(asset_folders, allowed);
+  Result<AssetLibrary> assets = AssetLibrary::open(asset_folders, allowed, source.copies);
   if (!assets) return forward_error(assets);
   Result<MaterialLibrary> materials =
       MaterialLibrary::open(material_folders, config->materials, allowed);

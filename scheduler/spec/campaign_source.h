@@ -26,6 +26,8 @@ struct CampaignSource {
   std::filesystem::path home;       ///< where the built-in assets/ and materials/ are
   /// Besides the folder of `file`, and `home`.
   AllowedFolders allowed = {};
+  /// See AssetLibrary::open; of no influence on any frame.
+  std::filesystem::path copies = {};
 };
 
 }  // namespace seedframe

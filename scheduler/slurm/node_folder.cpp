@@ -1,0 +1,79 @@
+#include "slurm/node_folder.h"
+
+#include <cerrno>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/files.h"
+
+namespace seedframe {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kTask = "task-";
+
+fs::path lock_of(const fs::path& task) { return task / "lock"; }
+
+fs::path usual_folder() {
+  const char* variable = std::getenv("TMPDIR");
+  const fs::path temporary = variable == nullptr || *variable == '\0' ? "/tmp" : variable;
+  return temporary / fmt::format("seedframe-{}", ::getuid());
+}
+
+/// Ours alone: in /tmp, somebody else may have made it before.
+Status make_own(const fs::path& folder) {
+  if (folder.has_parent_path()) {
+    if (Status made = make_folders(folder.parent_path()); !made) return made;
+  }
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
+    return system_failure("create", folder, errno);
+  }
+  struct stat info = {};
+  if (::lstat(folder.c_str(), &info) != 0) return system_failure("look at", folder, errno);
+  if (S_ISDIR(info.st_mode) && info.st_uid == ::getuid() && (info.st_mode & 0022) == 0) return {};
+  return fail(ErrorKind::kEnvironment,
+              "{} is not a folder that only this user may write to: remove it, or name another one "
+              "with --node-folder",
+              folder.string());
+}
+
+}  // namespace
+
+Result<NodeFolder> NodeFolder::open(const fs::path& wanted) {
+  NodeFolder node(wanted.empty() ? usual_folder() : wanted);
+  if (Status made = make_own(node.root_); !made) return forward_error(made);
+  for (const fs::path& folder : {node.assets(), node.meshes()}) {
+    if (Status made = make_folders(folder); !made) return forward_error(made);
+  }
+  node.remove_dead_tasks();
+  return node;
+}
+
+void NodeFolder::remove_dead_tasks() const {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(root_, ignored)) {
+    if (!entry.path().filename().string().starts_with(kTask)) continue;
+    if (!fs::exists(lock_of(entry.path()), ignored)) continue;  // just being made
+    const auto lock = CampaignLock::acquire(lock_of(entry.path()), std::chrono::milliseconds(0));
+    if (lock) fs::remove_all(entry.path(), ignored);
+  }
+}
+
+Result<NodeFolder::Task> NodeFolder::make_task() const {
+  std::string name = (root_ / (std::string(kTask) + "XXXXXX")).string();
+  if (::mkdtemp(name.data()) == nullptr) return system_failure("create", name, errno);
+  Result<CampaignLock> lock = CampaignLock::acquire(lock_of(name));
+  if (!lock) return forward_error(lock);
+  return Task(name, std::move(*lock));
+}
+
+NodeFolder::Task::~Task() {
+  if (path_.empty()) return;
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+}  // namespace seedframe
