@@ -90,16 +90,18 @@ Status Auditor::look() {
 /// What excludes each other, or is promised only by some modes, goes into rounds of its own.
 std::vector<Conditions> Auditor::rounds() const {
   const Conditions& vary = options_.vary;
-  Conditions together = without(vary, {Condition::kFreshWorker});
+  Conditions together = without(vary, {Condition::kFreshWorker, Condition::kNode});
   if (!portable_) together.erase(Condition::kIsa);
   std::vector<Conditions> rounds;
-  if (!together.empty() || vary.empty()) rounds.push_back(together);
+  const bool only_nodes = vary == Conditions{Condition::kNode};
+  if ((!together.empty() || vary.empty()) && !only_nodes) rounds.push_back(together);
   if (vary.contains(Condition::kFreshWorker)) {
     Conditions fresh = without(together, {Condition::kHistory, Condition::kOrder});
     fresh.insert(Condition::kFreshWorker);
     rounds.push_back(std::move(fresh));
   }
   if (vary.contains(Condition::kIsa) && !portable_) rounds.push_back({Condition::kIsa});
+  if (vary.contains(Condition::kNode)) rounds.push_back({Condition::kNode});
   return rounds;
 }
 
@@ -143,7 +145,7 @@ Status Auditor::compare_inputs(AuditedFrame& frame) {
 }
 
 Status Auditor::render(RunObserver& observer) {
-  Rerenderer rerenderer(prepared_, setup_, observer);
+  Rerenderer rerenderer(prepared_, setup_, observer, options_.on_other_nodes);
   for (std::size_t i = 0; i < audit_.rounds.size(); ++i) {
     Status rendered = render_round(audit_.rounds[i], i + 1, rerenderer);
     if (!rendered) return rendered;
@@ -210,7 +212,7 @@ std::int64_t Auditor::unexplained() const {
 
 Status Auditor::explain(RunObserver& observer) {
   const fs::path scratch = options_.folder / "work";
-  Rerenderer rerenderer(prepared_, setup_, observer);
+  Rerenderer rerenderer(prepared_, setup_, observer, options_.on_other_nodes);
   CauseFinder finder(campaign_, rerenderer, setup_.options, portable_, companions_, scratch);
   const AuditedFrame* example = nullptr;  // the last one whose cause was looked for
   int looked_for = 0;

@@ -23,7 +23,8 @@ struct AuditOptions {
   SampleWish sample;
   Conditions vary;
   Tolerance tolerance;
-  int most_causes = 4;  ///< frames whose causes are looked for by more renderings
+  OnOtherNodes on_other_nodes;  ///< where that is varied
+  int most_causes = 4;          ///< frames whose causes are looked for by more renderings
   /// Holds the renderings, which are campaigns of the sample, and pictures of differences.
   std::filesystem::path folder;
 };

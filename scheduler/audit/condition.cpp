@@ -11,9 +11,9 @@
 namespace seedframe {
 namespace {
 
-constexpr std::array<const char*, 9> kConditionNames = {"threads",      "workers",  "order",
-                                                        "fresh-worker", "history",  "tmpdir",
-                                                        "locale",       "timezone", "isa"};
+constexpr std::array<const char*, 10> kConditionNames = {
+    "threads", "workers", "order",    "fresh-worker", "history",
+    "tmpdir",  "locale",  "timezone", "isa",          "node"};
 
 }  // namespace
 
@@ -33,6 +33,7 @@ Conditions usual_conditions() {
   Conditions all;
   for (std::size_t i = 0; i < kConditionNames.size(); ++i) all.insert(static_cast<Condition>(i));
   all.erase(Condition::kIsa);
+  all.erase(Condition::kNode);
   return all;
 }
 

@@ -20,6 +20,7 @@ enum class Condition {
   kLocale,       ///< a locale with decimal commas
   kTimezone,     ///< one that is 12 h 45 min ahead
   kIsa,          ///< instructions of another CPU
+  kNode,         ///< another node of a Slurm cluster than the one that made the frame
 };
 using Conditions = std::set<Condition>;
 
@@ -27,11 +28,12 @@ const char* to_string(Condition condition);
 /// "threads, order"; "nothing" for none.
 std::string describe(const Conditions& conditions);
 
-/// All that every mode promises to be without effect: all but kIsa.
+/// All that every mode promises to be without effect: all but kIsa, and kNode, which needs a
+/// cluster and is to be asked for by name.
 Conditions usual_conditions();
 /// All that this mode promises to be without effect.
 Conditions promised_conditions(Determinism::Mode mode);
-/// "threads,order", or "all", or "none"; kInput errors name what there is.
+/// "threads,order", or "all" (but for kNode), or "none"; kInput errors name what there is.
 Result<Conditions> parse_conditions(std::string_view list);
 
 }  // namespace seedframe

@@ -75,7 +75,8 @@ RunOptions vary(RunOptions options, const Conditions& varied, bool portable,
         }
         break;
       case Condition::kOrder:    // of the frames, and
-      case Condition::kHistory:  // which come first: whoever renders says
+      case Condition::kHistory:  // which come first, and
+      case Condition::kNode:     // where: whoever renders says
         break;
     }
   }
@@ -100,7 +101,7 @@ Arrangement arrange(std::vector<std::int64_t> frames, const Conditions& varied,
     others.resize(std::min(others.size(), at_once - frames.size()));
     frames.insert(frames.end(), others.begin(), others.end());
   }
-  return {std::move(frames), static_cast<int>(at_once)};
+  return {std::move(frames), static_cast<int>(at_once), varied.contains(Condition::kNode)};
 }
 
 Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions options,
@@ -113,6 +114,11 @@ Result<Campaign> Rerenderer::render(const Arrangement& arrangement, RunOptions o
   // Or a worker that was slow to start would have no history, and frames not their arrangement.
   setup.options.pool.begin_together = true;
   setup.cache.clear();  // what is audited is never taken from anywhere
+  if (arrangement.other_nodes) {
+    Result<MakeRun> make = on_other_nodes_(frames, setup.options);
+    if (!make) return forward_error(make);
+    setup.make = std::move(*make);
+  }
   UsedFiles used;
   Result<Campaign> campaign = create_scratch_campaign(folder, frames, prepared_, used);
   if (!campaign) return forward_error(campaign);

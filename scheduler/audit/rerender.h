@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,7 +39,12 @@ inline constexpr const char* kElsewhere = "elsewhere für später";
 struct Arrangement {
   std::vector<std::int64_t> frames;  ///< in the order in which they are handed out
   int workers = 1;
+  bool other_nodes = false;  ///< on other nodes than those that made them
 };
+
+/// A run of frames on other nodes of a cluster than those that made them, with these options.
+using OnOtherNodes =
+    std::function<Result<MakeRun>(const std::vector<std::int64_t>& frames, const RunOptions&)>;
 
 /// What to render to get `frames`: with kHistory some companions before them for each worker, with
 /// kOrder the last frame first, and with kWorkers companions beside them if there are fewer frames
@@ -50,8 +56,12 @@ Arrangement arrange(std::vector<std::int64_t> frames, const Conditions& varied,
 class Rerenderer {
  public:
   /// All must outlive it.
-  Rerenderer(PreparedCampaign& prepared, const RunSetup& setup, RunObserver& observer)
-      : prepared_(prepared), setup_(setup), observer_(observer) {}
+  Rerenderer(PreparedCampaign& prepared, const RunSetup& setup, RunObserver& observer,
+             OnOtherNodes on_other_nodes)
+      : prepared_(prepared),
+        setup_(setup),
+        observer_(observer),
+        on_other_nodes_(std::move(on_other_nodes)) {}
 
   /// Into a folder that becomes a campaign of these frames alone. What was there is removed. With
   /// `options` instead of the setup's; the number of workers is the arrangement's. A frame that
@@ -63,6 +73,7 @@ class Rerenderer {
   PreparedCampaign& prepared_;
   const RunSetup& setup_;
   RunObserver& observer_;
+  OnOtherNodes on_other_nodes_;
 };
 
 }  // namespace seedframe

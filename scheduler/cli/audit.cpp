@@ -15,6 +15,7 @@
 #include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/blender_option.h"
+#include "console/executor_options.h"
 #include "console/exit_code.h"
 #include "console/home.h"
 #include "console/progress.h"
@@ -25,6 +26,8 @@
 #include "export/kept_inputs.h"
 #include "formats/formats.h"
 #include "manual/describe_command.h"
+#include "slurm/cluster_state.h"
+#include "slurm/slurm_factory.h"
 
 namespace seedframe {
 namespace {
@@ -36,6 +39,7 @@ struct AuditArguments {
   std::vector<std::string> allowed;
   AuditOptions options;
   RunOptions run;
+  ExecutorOptions executor;
   bool json = false;
 };
 
@@ -112,6 +116,28 @@ int audit_alone(const Campaign& campaign, const Error& why, const AuditArguments
   return tell(campaign, std::move(**kept), result, arguments);
 }
 
+/// Where --vary node renders: on the cluster that the campaign's last run was on, unless told
+/// otherwise.
+Result<OnOtherNodes> other_nodes(const Campaign& campaign, const ExecutorOptions& said) {
+  const auto slurm = choose_executor(said, &campaign.store);
+  if (!slurm) return forward_error(slurm);
+  if (!*slurm) {
+    return fail(ErrorKind::kInput,
+                "--vary node renders frames again on other nodes of a Slurm cluster: give "
+                "--executor slurm");
+  }
+  return OnOtherNodes([&campaign, options = **slurm](const std::vector<std::int64_t>& frames,
+                                                     const RunOptions& run) -> Result<MakeRun> {
+    auto makers = nodes_of(campaign, frames);
+    if (!makers) return forward_error(makers);
+    SlurmOptions others = options;
+    others.avoid = std::move(*makers);
+    RunOptions tasks = run;
+    tasks.blender = run.worker.blender.path.empty() ? run.blender : run.worker.blender.name();
+    return runs_by_slurm(others, tasks);
+  });
+}
+
 int audit(AuditArguments& arguments) {
   const Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
@@ -129,6 +155,11 @@ int audit(AuditArguments& arguments) {
     if (!setup) return report(setup.error());
     print_notes(*setup);
   }
+  if (options.vary.contains(Condition::kNode)) {
+    Result<OnOtherNodes> others = other_nodes(*campaign, arguments.executor);
+    if (!others) return report(others.error());
+    options.on_other_nodes = std::move(*others);
+  }
   if (Status taken = take_audit_folder(options.folder); !taken) return report(taken.error());
   Auditor auditor(*campaign, *prepared, *setup, options);
   if (Status looked = auditor.look(); !looked) return report(looked.error());
@@ -141,7 +172,8 @@ int audit(AuditArguments& arguments) {
 }
 
 std::vector<std::string> condition_words() {
-  std::vector<std::string> words = {"all", "none", to_string(Condition::kIsa)};
+  std::vector<std::string> words = {"all", "none", to_string(Condition::kIsa),
+                                    to_string(Condition::kNode)};
   for (const Condition condition : usual_conditions()) words.emplace_back(to_string(condition));
   return words;
 }
@@ -167,9 +199,11 @@ void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
       ->check(NotNegative());
   verb->add_option("--sample-seed", options.sample.seed, "another one draws other frames")
       ->capture_default_str();
-  verb->add_option("--vary", arguments->vary,
-                   "conditions: threads, workers, order, fresh-worker, history, tmpdir, locale, "
-                   "timezone, isa; all or none (default: all that the campaign's mode covers)")
+  verb->add_option(
+          "--vary", arguments->vary,
+          "conditions: threads, workers, order, fresh-worker, history, tmpdir, locale, "
+          "timezone, isa, node (of a Slurm cluster); all (but node) or none (default: all that "
+          "the campaign's mode covers)")
       ->check(offers(condition_words()));
   verb->add_option("--causes", options.most_causes,
                    "most frames whose cause is looked for by more renderings")
@@ -180,6 +214,7 @@ void add_audit_verb(CLI::App& app, const OnSelected& on_selected) {
       ->type_name("DIR");
   add_tolerance_options(*verb, options.tolerance);
   add_blender_option(*verb, arguments->run.blender);
+  add_executor_options(*verb, arguments->executor);
   add_allow_option(*verb, arguments->allowed);
   verb->add_flag("--quiet", arguments->run.quiet, "no progress");
   verb->add_flag("--json", arguments->json, "print report.json instead of a summary");

@@ -52,16 +52,30 @@ void tell_timings(const AttemptTimings& timings, const CampaignStatus& status) {
   }
 }
 
+void tell_cluster(const ClusterState& cluster, bool running, const std::string& folder) {
+  tell("in Slurm: {} tasks run{}, {} wait (jobs {}); {} frames are with them", cluster.running,
+       cluster.nodes.empty() ? "" : fmt::format(" on {}", fmt::join(cluster.nodes, ", ")),
+       cluster.waiting, fmt::join(cluster.jobs, ", "), cluster.frames);
+  if (!cluster.left_out.empty()) {
+    tell("no more tasks are given to {}, where they made nothing",
+         fmt::join(cluster.left_out, ", "));
+  }
+  if (!running) {
+    tell("that was when the last run ended: 'seedframe resume {}' collects what they make", folder);
+  }
+}
+
 /// A line for each that is at work, and when they will be done.
 void tell_progress(const CampaignStatus& status) {
   for (const WorkerStatus& worker : status.workers) {
     const WorkerRow& row = worker.row;
-    tell("  worker {:<3} {:>6} frame{} done{}{}{}", row.worker, row.done, row.done == 1 ? "" : "s",
+    tell("  {:<10} {:>6} frame{} done{}{}{}", worker.name, row.done, row.done == 1 ? "" : "s",
          row.done > 0 ? fmt::format(", {:.2f} s each", row.frame_s) : "",
          row.failed > 0 ? fmt::format(", {} failed", row.failed) : "",
          row.frame
              ? fmt::format(", at frame {} for {}", *row.frame, duration_text(worker.frame_for_s))
-             : ", idle");
+         : status.cluster ? ""
+                          : ", idle");
   }
   if (status.left_s) tell("left: about {}", duration_text(*status.left_s));
 }
@@ -94,6 +108,7 @@ void print_status(const CampaignStatus& status, const std::string& folder) {
        counts.done, counts.running, counts.pending, counts.failed, counts.quarantined,
        status.running ? " (at work)" : "");
   tell_progress(status);
+  if (status.cluster) tell_cluster(*status.cluster, status.running, folder);
   if (status.timings) tell_timings(*status.timings, status);
   if (status.twin.frames > 0) tell_twin(status.twin);
   if (status.promise) {

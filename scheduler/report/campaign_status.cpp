@@ -14,9 +14,11 @@ constexpr int kShownFailures = 5;
 constexpr int kShownQuarantined = 20;
 
 /// Of a run that is under way.
-void add_progress(const RunProgress& progress, double now, CampaignStatus& status) {
+void add_progress(const RunProgress& progress, const std::vector<std::string>& nodes, double now,
+                  CampaignStatus& status) {
   for (const WorkerRow& row : progress.workers) {
-    status.workers.push_back({row, row.frame ? std::max(0.0, now - row.since) : 0.0});
+    status.workers.push_back(
+        {row, worker_name(row.worker, nodes), row.frame ? std::max(0.0, now - row.since) : 0.0});
   }
   const bool traced = status.timings && status.timings->render_s == 0.0;
   if (traced) status.workers.clear();  // its threads have no numbers
@@ -57,12 +59,15 @@ Result<CampaignStatus> read_status(const Campaign& campaign, double now) {
   auto touched = inputs_touched(campaign);
   if (!touched) return forward_error(touched);
   status.inputs_touched = std::move(*touched);
+  status.cluster = read_cluster_state(campaign.files);
   const auto lock = CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0));
   status.running = !lock && lock.error().kind == ErrorKind::kInput;  // held, not out of reach
   if (status.running) {
     const auto progress = campaign.store.run_progress();
     if (!progress) return forward_error(progress);
-    add_progress(*progress, now, status);
+    const auto nodes = read_nodes(campaign.files);
+    if (!nodes) return forward_error(nodes);
+    add_progress(*progress, *nodes, now, status);
   }
   return status;
 }
@@ -99,12 +104,14 @@ Json to_json(const CampaignStatus& status) {
   json["workers"] = Json::array();
   for (const WorkerStatus& worker : status.workers) {
     json["workers"].push_back({{"worker", worker.row.worker},
+                               {"name", worker.name},
                                {"done", worker.row.done},
                                {"failed", worker.row.failed},
                                {"frame_s", worker.row.frame_s},
                                {"frame", worker.row.frame ? Json(*worker.row.frame) : Json()},
                                {"frame_for_s", worker.frame_for_s}});
   }
+  json["cluster"] = status.cluster ? to_json(*status.cluster) : Json();
   json["left_s"] = status.left_s ? Json(*status.left_s) : Json();
   if (status.timings) {
     json["mean_seconds"] = {{"build", status.timings->build_s},

@@ -10,12 +10,14 @@
 #include "base/error.h"
 #include "campaign/campaign.h"
 #include "report/promise_status.h"
+#include "slurm/cluster_state.h"
 
 namespace seedframe {
 
 /// A worker that is there, as its run has noted it.
 struct WorkerStatus {
   WorkerRow row;
+  std::string name;
   double frame_for_s = 0.0;  ///< that it has been at its frame
 };
 
@@ -31,6 +33,7 @@ struct CampaignStatus {
   bool running = false;                     ///< a scheduler is at work
   std::vector<WorkerStatus> workers;        ///< while one is: those that render
   std::optional<double> left_s;             ///< while one is: what is left at the run's rate
+  std::optional<ClusterState> cluster;      ///< of a run by Slurm that is not over
   std::vector<std::string> inputs_touched;  ///< files that are not as they were for its frames
 };
 

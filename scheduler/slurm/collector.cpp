@@ -4,7 +4,7 @@
 
 #include "base/files.h"
 #include "frames/manifest.h"
-#include "slurm/node_workers.h"
+#include "slurm/cluster_state.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <thread>
 
-#include <fmt/ranges.h>
-
-#include "base/clock.h"
 #include "base/files.h"
+#include "slurm/cluster_state.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -196,21 +194,18 @@ Status SlurmRun::finish_up() {
 }
 
 void SlurmRun::write_state(const std::vector<QueuedTask>& queue) {
-  std::set<std::int64_t> jobs;
+  ClusterState state;
   for (const auto& submission : book_.submissions()) {
-    if (submission->job && !submission->all_closed()) jobs.insert(*submission->job);
+    if (submission->job && !submission->all_closed()) state.jobs.insert(*submission->job);
   }
-  std::int64_t waiting = 0;
-  std::int64_t running = 0;
-  std::set<std::string> nodes;
   for (const QueuedTask& task : queue) {
-    if (!jobs.contains(task.job)) continue;
-    ++(task.waits ? waiting : running);
-    if (!task.waits) nodes.insert(task.node);
+    if (!state.jobs.contains(task.job)) continue;
+    ++(task.waits ? state.waiting : state.running);
+    if (!task.waits) state.nodes.insert(task.node);
   }
-  const Json state = {{"jobs", jobs},   {"waiting", waiting},      {"running", running},
-                      {"nodes", nodes}, {"frames", ledger_.out()}, {"left_out", left_out_}};
-  std::string text = readable_json(state);
+  state.frames = ledger_.out();
+  state.left_out = left_out_;
+  std::string text = readable_json(to_json(state));
   if (text == state_) return;
   // Only for whoever looks.
   if (write_file_atomically(campaign_.files.slurm_state(), text)) state_ = std::move(text);
