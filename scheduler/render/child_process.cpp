@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <mutex>
 #include <set>
@@ -156,9 +155,18 @@ class Children {
   }
 
  private:
+  /// What can be read of it: the process may end meanwhile.
   static std::string text_of(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::string text;
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return text;
+    std::array<char, 4096> buffer;
+    ssize_t bytes = 0;
+    while ((bytes = read(descriptor, buffer.data(), buffer.size())) > 0) {
+      text.append(buffer.data(), static_cast<std::size_t>(bytes));
+    }
+    close(descriptor);
+    return text;
   }
 
   static bool is_marked_child(const std::filesystem::path& process) {
