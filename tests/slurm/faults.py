@@ -1,0 +1,195 @@
+#!/usr/bin/python3
+"""What breaks in a cluster, while a campaign runs on it: daemons, nodes, jobs, and the head itself.
+
+A fault meets each campaign once, at a random moment after its first task has begun. A head that ends before its
+campaign is complete must say that `resume` goes on, and then it does. In the end the campaign must be that of one
+machine, no frame committed twice, and nothing left running.
+
+    tests/slurm/faults.py [--cycles 20] [--fault NAME…] [--seed S] [--report results/reliability/slurm.md]
+"""
+
+import random
+import signal
+import subprocess
+import sys
+import time
+
+import cluster
+import distributed
+from distributed import CHECKED, PATIENCE_S, Bench, Complaint, judge, report
+
+SCENES = 8  # of three frames, three frames a task: eight tasks on three nodes
+FRAME_S = 0.15
+ENDS_EARLY = (3, 4)  # frames have failed; what the head works with has
+# Soon noticed, so that a cycle does not take minutes.
+SETTINGS = ("SlurmdTimeout=5", "MessageTimeout=3", "KillWait=1")
+
+
+class Case:
+    """A campaign under way: what a fault can take hold of."""
+
+    def __init__(self, bench, process, rng):
+        self.bench = bench
+        self.cluster = bench.cluster
+        self.process = process
+        self.rng = rng
+        self.node = rng.choice(bench.cluster.nodes)
+
+    def pause(self, least=0.3, most=4.0):
+        time.sleep(self.rng.uniform(least, most))
+
+    def running(self):
+        return [job for job in self.cluster.jobs() or [] if job[1] == "RUNNING"]
+
+
+def controller(case):
+    """SIGKILL of slurmctld, which is started again"""
+    case.cluster.kill_controller()
+    case.pause()
+    case.cluster.start_controller()
+    return True
+
+
+def daemon(case):
+    """SIGKILL of a slurmd, which is started again"""
+    case.cluster.kill_daemon(case.node)
+    case.pause()
+    case.cluster.start_node(case.node)
+    return True
+
+
+def step(case):
+    """SIGKILL of a slurmstepd"""
+    steps = case.cluster.step_daemons()
+    if steps:
+        distributed.end_process(case.rng.choice(steps))
+    return bool(steps)
+
+
+def frozen(case):
+    """a node that stands still for longer than SlurmdTimeout, and goes on"""
+    case.cluster.stop_node(case.node)
+    case.bench.wait_for(lambda: case.cluster.node_state(case.node).startswith("down"), case.process, 60)
+    case.pause(0, 1)
+    case.cluster.continue_node(case.node)
+    return True
+
+
+def cancelled(case):
+    """scancel of the array"""
+    jobs = case.running()
+    if jobs:
+        subprocess.run(["scancel", jobs[0][0].split("_")[0]], check=False)
+    return bool(jobs)
+
+
+def requeued(case):
+    """scontrol requeue of a task"""
+    jobs = case.running()
+    if not jobs:
+        return False
+    job = case.rng.choice(jobs)[0]
+    # Tasks are submitted so that they are never begun again; an administrator may think otherwise.
+    subprocess.run(["scontrol", "update", f"JobId={job}", "Requeue=1"], check=False, stderr=subprocess.DEVNULL)
+    return subprocess.run(["scontrol", "requeue", job], check=False, stderr=subprocess.DEVNULL).returncode == 0
+
+
+def power(case):
+    """power loss of a node, which comes back"""
+    case.cluster.kill_node(case.node)
+    case.pause()
+    case.cluster.start_node(case.node)
+    return True
+
+
+def head(case):
+    """SIGKILL of the head"""
+    case.process.send_signal(signal.SIGKILL)
+    case.pause(0, 2)
+    return True
+
+
+FAULTS = {fault.__name__: fault for fault in (controller, daemon, step, frozen, cancelled, requeued, power, head)}
+
+
+def main():
+    parser = report.parser_of(__doc__)
+    parser.add_argument("--cycles", type=int, default=20, help="campaigns for each fault")
+    parser.add_argument("--fault", action="append", choices=FAULTS, help="this one only; may be repeated")
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    missing = cluster.missing_programs()
+    if missing:
+        sys.exit(f"there is no {', '.join(missing)} here; scripts/slurm-dev.sh install brings them")
+    begin = time.monotonic()
+    rows = []
+    with distributed.program_of(options) as program, \
+            cluster.Cluster(nodes=3, cpus=1, settings=SETTINGS) as nodes:
+        bench = Bench(program, CHECKED, SCENES, nodes)
+        span_s = undisturbed(bench)
+        for name in options.fault or FAULTS:
+            row = report.Row(FAULTS[name].__doc__)
+            rows.append(row)
+            for cycle in range(options.cycles):
+                row.blame(meet(bench, row, FAULTS[name], random.Random(f"{options.seed} {name} {cycle}"), span_s),
+                          f"cycle {cycle}", f"tests/slurm/faults.py --fault {name} --seed {options.seed} --cycles {cycle + 1}")
+            print(row, file=sys.stderr, flush=True)
+    text = [f"Made by `tests/slurm/faults.py --seed {options.seed}`, which says how: *number* is how many campaigns met the fault, at a",
+            f"random moment. Campaigns of {bench.frames} frames by a fake Blender, checked against their twins, in tasks of three frames "
+            f"on three nodes; {span_s:.1f} s", "from the first task to the end when undisturbed.", "", *report.table_of(rows), "",
+            *report.legend(), "", f"Took {time.monotonic() - begin:.0f} s."]
+    print("\n".join(text))
+    if options.report:
+        distributed.write_section(options.report, distributed.TITLE, "What breaks in a cluster", text)
+    return 1 if any(row.complaints for row in rows) else 0
+
+
+def start(bench):
+    bench.clear()
+    process = bench.program.start(*bench.submit_to_cluster(), fake={"delay_s": FRAME_S})
+    if not bench.wait_for(bench.claims, process):
+        run = bench.program.end(process, 1)
+        sys.exit(f"no task has begun before the head ended with {run.code}: {run.errors[-1000:]}")
+    return process
+
+
+def undisturbed(bench):
+    """Seconds from the first task to the end."""
+    process = start(bench)
+    since = time.monotonic()
+    run = bench.program.end(process)
+    seconds = time.monotonic() - since
+    resumes, complaints = bench.finish(run)
+    if resumes or complaints:
+        sys.exit(f"the undisturbed campaign is not as it should be: {run} {complaints}")
+    return seconds
+
+
+def meet(bench, row, fault, rng, span_s):
+    """Complaints about one campaign that meets the fault."""
+    process = start(bench)
+    time.sleep(rng.uniform(0, 0.8 * span_s))
+    try:
+        if fault(Case(bench, process, rng)):
+            row.number += 1
+        else:
+            row.notes["found nothing to break"] += 1
+    except subprocess.CalledProcessError as error:
+        row.notes["found nothing to break"] += 1
+        print(error, file=sys.stderr)
+    run = bench.program.end(process, PATIENCE_S)
+    allowed = ENDS_EARLY if fault is not head else (-signal.SIGKILL,)
+    resumes, complaints = bench.finish(run, allowed)
+    row.notes["heads ended, resumed"] += bool(resumes)
+    store = judge.Store.read(bench.campaign, bench.program.folder)
+    again = sum(attempt["outcome"] != "done" for attempt in store.attempts) if store else 0
+    row.notes["attempts came to nothing"] += again
+    try:
+        bench.cluster.heal()
+    except TimeoutError as error:
+        complaints.append(Complaint("conduct", str(error)))
+    return complaints
+
+
+if __name__ == "__main__":
+    sys.exit(main())
