@@ -1,11 +1,13 @@
 #!/bin/sh
 # Installs what is missing, builds, and runs every test: format, module edges and lint, the pages in a browser, the unit
-# tests (also under AddressSanitizer and UndefinedBehaviorSanitizer), and the tests with the real Blender.
+# tests (also under AddressSanitizer and UndefinedBehaviorSanitizer), the tests with the real Blender, and those on a Slurm
+# cluster, which is brought up here.
 #
 #   scripts/test.sh            all
 #   scripts/test.sh unit       unit tests of the release build only, exports read by small programs from PyPI, pages in a browser
 #   scripts/test.sh clients    exports read and trained on by torchvision, torchmetrics, webdataset and ultralytics, in an
 #                              environment of 6 GB that is made for it
+#   scripts/test.sh slurm      campaigns on a Slurm cluster of three nodes on this machine
 #   scripts/test.sh versions   what depends on Blender's version, with 4.2 and 5.0, and with 5.2 where there is a Python 3.13
 set -u
 cd "$(dirname "$0")/.."
@@ -86,6 +88,16 @@ browse_pages() { # by tests/browser: in Debian's Chromium, driven by packages of
   rm -f "$log"
 }
 
+run_on_cluster() {
+  echo "== tests on a Slurm cluster"
+  if scripts/slurm-dev.sh install; then
+    run_tests release slurm 1
+  else
+    skipped=$((skipped + 1))
+    echo "SKIPPED: tests on a Slurm cluster, whose programs could not be installed (why stands above)"
+  fi
+}
+
 # More at once than there are cores: many tests wait for a process or for a timeout to pass.
 at_once=$(($(nproc) * 3 / 2))
 if ! configure release || ! ninja --quiet -C build/release all; then
@@ -105,6 +117,8 @@ if [ "$what" = all ]; then
 fi
 if [ "$what" = versions ]; then
   for version in 4.2 5.0 5.2; do run_version "$version"; done
+elif [ "$what" = slurm ]; then
+  run_on_cluster
 elif [ "$what" = clients ]; then
   read_exports clients client_wheels.sh "pycocotools and webdataset"
   read_exports trainers trainer_wheels.sh "torchvision, torchmetrics, webdataset and ultralytics"
@@ -122,6 +136,7 @@ if [ "$what" = all ]; then
   echo "== tests with the real Blender"
   run_tests release blender "$(nproc)"
   run_version 4.5
+  run_on_cluster
   echo "== unit tests under AddressSanitizer and UndefinedBehaviorSanitizer"
   if wait "$sanitized"; then
     run_tests asan-ubsan unit "$at_once" . "$long_anyway"
