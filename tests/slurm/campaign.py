@@ -73,6 +73,8 @@ def equal(bench):
         complaints.append(Complaint("conduct", f"it took {resumes} more runs"))
     if not set(bench.cluster.arrays()) - before:
         complaints.append(Complaint("conduct", "Slurm has seen no array of it"))
+    if (bench.campaign / "slurm").exists():
+        complaints.append(Complaint("torn", "slurm/ is there still, though nothing was lost"))
     return complaints
 
 
