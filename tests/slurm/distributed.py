@@ -3,6 +3,7 @@
 import contextlib
 import os
 import pathlib
+import shutil
 import signal
 import sys
 import tempfile
@@ -42,6 +43,8 @@ class Bench(campaigns.Bench):
     """A kind of campaign that one machine has made, to be made again by tasks of a cluster."""
 
     def __init__(self, program, kind, scenes, cluster, batch_frames=3, more=()):
+        for earlier in program.folder.glob("undisturbed-*"):
+            shutil.rmtree(earlier)
         super().__init__(program, kind, scenes, workers=2)
         self.cluster = cluster
         self.distribute = ["--executor", "slurm", "--batch-frames", batch_frames, "--poll", 0.3, "--cpus-per-task", 1,
@@ -51,7 +54,8 @@ class Bench(campaigns.Bench):
         return ["submit", self.config, "-o", self.campaign, "--quiet", *self.kind.arguments, *self.distribute]
 
     def resume_on_cluster(self):
-        return ["resume", self.campaign, "--quiet"]
+        blender = self.kind.arguments if "--blender" in self.kind.arguments else ()
+        return ["resume", self.campaign, "--quiet", *blender]
 
     # ---- What there is of it ----
 
