@@ -82,7 +82,7 @@ class Bench(campaigns.Bench):
 
     # ---- Judging ----
 
-    def finish(self, run, allowed=(), most_resumes=4):
+    def finish(self, run, allowed=(), most_resumes=4, patience_s=PATIENCE_S):
         """(resumes, complaints) of a campaign whose head has ended with `run`: it is resumed until it is complete.
 
         `allowed`: the exit codes with which a head may end before, if it says that resume goes on.
@@ -96,7 +96,7 @@ class Bench(campaigns.Bench):
                 complaints.append(Complaint("conduct", f"it ended with {run.code} and told no way on: {said!r}"))
             store, found = self.judge_now()
             done = store.done() if store else {}
-            run = self.program.run(*self.resume_on_cluster(), timeout=PATIENCE_S)
+            run = self.program.run(*self.resume_on_cluster(), timeout=patience_s)
             complaints += found + judge.lost_since(done, judge.Store.read(self.campaign, self.program.folder))
             resumes += 1
         return resumes, complaints + run.conduct(0) + self.judge() + self.left_running()

@@ -64,7 +64,7 @@ def submit(program, nodes, options, size):
     begin = time.monotonic()
     bench.clear()
     run = program.run(*bench.submit_to_cluster(), timeout=LONGEST_S)
-    resumes, complaints = bench.finish(run, allowed=(4,))
+    resumes, complaints = bench.finish(run, allowed=(4,), patience_s=LONGEST_S)
     program.more_environment.clear()
     submitted = [json.loads(line) for line in (folder / "submitted.jsonl").read_text(encoding="utf-8").splitlines()]
     complaints += double_submissions(submitted, nodes, bench.frames)
