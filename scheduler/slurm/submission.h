@@ -1,5 +1,5 @@
 // A submission: an array of tasks, each of which makes a batch of frames on one node. Head and
-// tasks talk by files in a folder that both see (docs/formats/slurm.md):
+// tasks talk by files in a folder that both see (docs/cluster.md):
 //
 //     slurm/0001/submission.json   what is to be done; written before sbatch is called
 //                task.sh           what Slurm starts

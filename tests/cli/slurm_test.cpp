@@ -263,6 +263,7 @@ TEST_F(SlurmTest, ANodeWithOtherFilesIsFoundOut) {
                            lines_);
   wait_for("far/slurm/0001/job");
   make_part("hex_bolt");  // what this node sees under the name
+  write("cluster/1_0.queued", "n1");
   const Outcome task = run({"run-batch", (folder_ / "far/slurm/0001").string(), "0"},
                            {"SLURM_ARRAY_JOB_ID=1", "SLURMD_NODENAME=n1"});
   EXPECT_EQ(task.exit_code, 0) << task.errors;
@@ -273,6 +274,19 @@ TEST_F(SlurmTest, ANodeWithOtherFilesIsFoundOut) {
   const Outcome outcome = wait(head);
   EXPECT_EQ(status("far")["done"], 0) << outcome.errors;
   EXPECT_THAT(status("far")["recent_failures"].dump(), HasSubstr("node n1 makes another frame"));
+}
+
+TEST_F(SlurmTest, ATaskThatIsPutBackIntoTheQueueIsNotWaitedFor) {
+  lines_ = environment(R"({"hold": true})");
+  const pid_t head = start({"submit", "line.yaml", "-o", "far", "--executor", "slurm", "--poll",
+                            "0.1", "--batch-frames", "9", "--quiet"},
+                           lines_);
+  wait_for("far/slurm/0001/job");
+  write("far/slurm/0001/claims/0", "{}");  // it had begun, and Slurm has it wait again
+  wait_for("far/slurm/0002/job");
+  EXPECT_THAT(calls(), HasSubstr("scancel --quiet 1_0"));
+  ::kill(head, SIGINT);
+  EXPECT_EQ(wait(head).exit_code, 130);
 }
 
 TEST_F(SlurmTest, StoppedItCancelsAndIsResumed) {
