@@ -93,6 +93,7 @@ int run(int argc, char** argv) {
   seedframe::add_bench_verb(app, with_home);
   seedframe::add_compare_verb(app, on_selected);
   seedframe::add_doctor_verb(app, on_selected);
+  seedframe::add_stream_verb(app, with_home);
   seedframe::add_run_batch_verb(app, with_home);
   seedframe::add_manual_verb(app, on_selected);
   app.footer("Example: seedframe submit configs/parts.yaml");

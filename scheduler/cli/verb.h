@@ -15,6 +15,7 @@ using OnSelected = std::function<void(std::function<int()>)>;
 void add_submit_verb(CLI::App& app, const OnSelected& on_selected);
 void add_resume_verb(CLI::App& app, const OnSelected& on_selected);
 void add_run_batch_verb(CLI::App& app, const OnSelected& on_selected);
+void add_stream_verb(CLI::App& app, const OnSelected& on_selected);
 void add_status_verb(CLI::App& app, const OnSelected& on_selected);
 void add_render_verb(CLI::App& app, const OnSelected& on_selected);
 void add_show_verb(CLI::App& app, const OnSelected& on_selected);

@@ -83,11 +83,16 @@ Result<std::vector<GivenValues>> Graphs::read(std::int64_t index,
   const Result<Json> graph =
       parse_json(std::string_view(*text_).substr(line.begin, line.length), where);
   if (!graph) return fail(ErrorKind::kInput, "{}", graph.error().message);
-  if (!graph->is_object()) {
+  return read_graph(*graph, variables, where);
+}
+
+Result<std::vector<GivenValues>> read_graph(const Json& graph, const GraphVariables& variables,
+                                            const std::string& where) {
+  if (!graph.is_object()) {
     return fail(ErrorKind::kInput, "{}: expected an object, such as {{\"yaw\": 90}}", where);
   }
   std::vector<GivenValues> given(variables.size());
-  for (const auto& [key, value] : graph->items()) {
+  for (const auto& [key, value] : graph.items()) {
     const auto found = variables.find(key);
     if (found == variables.end()) {
       std::vector<std::string> known;

@@ -7,10 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "base/canonical_json.h"
 #include "base/error.h"
 #include "draws/variables.h"
 
 namespace seedframe {
+
+/// What one graph gives, for EvaluationContext::given. kInput errors begin with `where`: not an
+/// object, an unknown variable (with "did you mean"), a wrong type.
+Result<std::vector<GivenValues>> read_graph(const Json& graph, const GraphVariables& variables,
+                                            const std::string& where);
 
 class Graphs {
  public:
@@ -20,8 +26,7 @@ class Graphs {
   /// Number of lines that are not empty.
   std::int64_t size() const { return static_cast<std::int64_t>(lines_.size()); }
 
-  /// What line `index` gives, for EvaluationContext::given. Errors (kInput) name the file and the
-  /// line: not a JSON object, an unknown variable (with "did you mean"), a wrong type.
+  /// What line `index` gives; errors (kInput) name the file and the line.
   Result<std::vector<GivenValues>> read(std::int64_t index, const GraphVariables& variables) const;
 
  private:

@@ -20,6 +20,7 @@ class WorkerPool::Loop {
 
   Result<RunSummary> run(const std::vector<PendingFrame>& frames);
   void post_verdict(const FrameJob& job, Status verdict);
+  void add(const PendingFrame& frame);
   void drain();
 
  private:
@@ -55,6 +56,7 @@ class WorkerPool::Loop {
   };
 
   void stop_run(Error error);
+  bool is_over(const Schedule& schedule) const;
 
   // Work for workers.
   void start_workers(Schedule& schedule);
@@ -88,6 +90,7 @@ class WorkerPool::Loop {
   void stop_all(Schedule& schedule);
 
   // From other threads and signal handlers.
+  void take_added(Schedule& schedule);
   void take_verdicts(Schedule& schedule);
   void take_verdict(Schedule& schedule, const FrameJob& job, const Status& verdict);
   void take_drain(Schedule& schedule);
@@ -105,7 +108,8 @@ class WorkerPool::Loop {
   int starts_failed_in_a_row_ = 0;
 
   std::atomic<int> drains_asked_ = 0;
-  std::mutex verdicts_mutex_;
+  std::mutex verdicts_mutex_;  ///< guards what follows
+  std::vector<PendingFrame> added_;
   std::vector<std::pair<FrameJob, Status>> verdicts_;
 };
 

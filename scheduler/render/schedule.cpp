@@ -6,11 +6,13 @@ namespace seedframe {
 
 Schedule::Schedule(const std::vector<PendingFrame>& frames, const AttemptLimits& limits)
     : limits_(limits) {
-  for (const PendingFrame& frame : frames) {
-    if (frame.crashes > 0) charges_[frame.frame].crashes = frame.crashes;
-    std::deque<FrameJob>& queue = frame.crashes > 0 ? queue_after_crash(frame.frame) : frames_;
-    queue.push_back({frame.frame, frame.attempts_used + 1});
-  }
+  for (const PendingFrame& frame : frames) add(frame);
+}
+
+void Schedule::add(const PendingFrame& frame) {
+  if (frame.crashes > 0) charges_[frame.frame].crashes = frame.crashes;
+  std::deque<FrameJob>& queue = frame.crashes > 0 ? queue_after_crash(frame.frame) : frames_;
+  queue.push_back({frame.frame, frame.attempts_used + 1});
 }
 
 std::optional<FrameJob> Schedule::next(bool fresh_worker) {

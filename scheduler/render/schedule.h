@@ -33,6 +33,9 @@ class Schedule {
  public:
   Schedule(const std::vector<PendingFrame>& frames, const AttemptLimits& limits);
 
+  /// One more, after those that wait.
+  void add(const PendingFrame& frame);
+
   /// The next attempt to make; empty when nothing waits that this worker may take. A fresh worker
   /// (one that has rendered nothing yet) is given retries that need one before anything else.
   std::optional<FrameJob> next(bool fresh_worker);

@@ -25,6 +25,7 @@ Result<RunSummary> WorkerPool::run(const std::vector<PendingFrame>& frames) {
 void WorkerPool::post_verdict(const FrameJob& job, Status verdict) {
   loop_->post_verdict(job, std::move(verdict));
 }
+void WorkerPool::add(const PendingFrame& frame) { loop_->add(frame); }
 void WorkerPool::drain() { loop_->drain(); }
 
 WorkerPool::Loop::Loop(const PoolOptions& options, Executor& executor, RenderClient& client)
@@ -36,13 +37,14 @@ WorkerPool::Loop::Loop(const PoolOptions& options, Executor& executor, RenderCli
 Result<RunSummary> WorkerPool::Loop::run(const std::vector<PendingFrame>& frames) {
   Schedule schedule(frames, options_.attempts);
   while (!stopped_by_) {
+    take_added(schedule);
     take_verdicts(schedule);
     take_drain(schedule);
-    if (stopped_by_ || schedule.finished()) break;
+    if (stopped_by_ || is_over(schedule)) break;
     retire_workers(schedule);
     start_workers(schedule);
     hand_out(schedule);
-    if (stopped_by_ || schedule.finished()) continue;
+    if (stopped_by_ || is_over(schedule)) continue;
     wait_for_events();
     for (Slot& slot : slots_) {
       receive_from(slot, schedule);
@@ -54,6 +56,10 @@ Result<RunSummary> WorkerPool::Loop::run(const std::vector<PendingFrame>& frames
   if (stopped_by_) return tl::unexpected(*stopped_by_);
   return RunSummary{schedule.done(),    schedule.failed(), schedule.quarantined(),
                     schedule.waiting(), starts_,           /*from_cache=*/0};
+}
+
+bool WorkerPool::Loop::is_over(const Schedule& schedule) const {
+  return schedule.finished() && (!options_.stays || drains_asked_ > 0);
 }
 
 void WorkerPool::Loop::stop_run(Error error) {
@@ -167,6 +173,20 @@ void WorkerPool::Loop::post_verdict(const FrameJob& job, Status verdict) {
     verdicts_.emplace_back(job, std::move(verdict));
   }
   executor_.wake();
+}
+
+void WorkerPool::Loop::add(const PendingFrame& frame) {
+  {
+    const std::lock_guard lock(verdicts_mutex_);
+    added_.push_back(frame);
+  }
+  executor_.wake();
+}
+
+void WorkerPool::Loop::take_added(Schedule& schedule) {
+  const std::lock_guard lock(verdicts_mutex_);
+  for (const PendingFrame& frame : added_) schedule.add(frame);
+  added_.clear();
 }
 
 void WorkerPool::Loop::drain() {

@@ -32,6 +32,8 @@ struct PoolOptions {
   /// No frame is handed out before all workers that it begins with are ready, so that each gets one
   /// of the first frames, however long it took to start.
   bool begin_together = false;
+  /// run() does not return when nothing is left: frames are added until it is drained.
+  bool stays = false;
   /// No new frame starts while so many wait for their verdict, which bounds the disk they take.
   int max_unjudged = 64;
 };
@@ -89,6 +91,9 @@ class WorkerPool {
   /// worker that rendered it is replaced, except kEnvironment and kExhausted (a full disk), which
   /// end the run instead.
   void post_verdict(const FrameJob& job, Status verdict);
+
+  /// One more frame for a run that stays; from any thread, also before run().
+  void add(const PendingFrame& frame);
 
   /// No new frames: run returns when those under way have been rendered and judged. The second call
   /// kills the workers and waits for verdicts only. Async-signal-safe, from any thread.

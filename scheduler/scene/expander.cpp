@@ -31,7 +31,12 @@ class SceneExpander::Program {
         render_seed_(config.draw_seed(), "render.seed") {}
 
   Status compile();
-  Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes) const;
+  using Given = std::shared_ptr<const std::vector<GivenValues>>;
+
+  /// `given`: null, what the graphs give.
+  Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes,
+                               Given given = nullptr) const;
+  const GraphVariables& variables() const { return compiled_.variables.graph_variables; }
 
   std::int64_t frame_count() const { return config_.frame_count(); }
   std::shared_ptr<const RenderChoices> choices;  ///< null: everything is as the config says
@@ -48,11 +53,11 @@ class SceneExpander::Program {
   void apply_choice(std::int64_t frame, RenderSettings& render) const;
   RenderSettings render_settings(const EvaluationContext& context) const;
   /// Before anything is evaluated.
-  Result<EvaluationContext> context_of(std::int64_t scene, std::int64_t view) const;
+  Result<EvaluationContext> context_of(std::int64_t scene, std::int64_t view, Given given) const;
   void set_sweep(std::int64_t combination, VariableValues& values) const;
   void add_sweep(const VariableValues& values, Json& graph) const;
   /// Nothing without graphs.
-  Result<std::shared_ptr<const std::vector<GivenValues>>> given_for(std::int64_t scene) const;
+  Result<Given> given_for(std::int64_t scene) const;
   void evaluate_variables(EvaluationContext& context) const;
   /// One attempt at the frame; `used` is what those before used.
   FrameDraft draft_frame(UsedFiles used, EvaluationContext& context) const;
@@ -126,8 +131,7 @@ void SceneExpander::Program::add_sweep(const VariableValues& values, Json& graph
   }
 }
 
-Result<std::shared_ptr<const std::vector<GivenValues>>> SceneExpander::Program::given_for(
-    std::int64_t scene) const {
+Result<SceneExpander::Program::Given> SceneExpander::Program::given_for(std::int64_t scene) const {
   if (graphs_ == nullptr) return nullptr;
   std::shared_ptr<const std::vector<GivenValues>> given = graph_.find(scene);
   if (given != nullptr) return given;
@@ -138,8 +142,8 @@ Result<std::shared_ptr<const std::vector<GivenValues>>> SceneExpander::Program::
   return given;
 }
 
-Result<EvaluationContext> SceneExpander::Program::context_of(std::int64_t scene,
-                                                             std::int64_t view) const {
+Result<EvaluationContext> SceneExpander::Program::context_of(std::int64_t scene, std::int64_t view,
+                                                             Given given) const {
   const std::int64_t combinations = config_.sweep.size();
   EvaluationContext context;
   context.scene = static_cast<std::uint32_t>(scene);
@@ -149,9 +153,12 @@ Result<EvaluationContext> SceneExpander::Program::context_of(std::int64_t scene,
       static_cast<std::uint32_t>(config_.sweep.hold_draws ? scene / combinations : scene);
   context.values = compiled_.variables.blank_values();
   set_sweep(scene % combinations, context.values);
-  auto given = given_for(scene);
-  if (!given) return forward_error(given);
-  context.given = std::move(*given);
+  if (given == nullptr) {
+    Result<Given> read = given_for(scene);
+    if (!read) return forward_error(read);
+    given = std::move(*read);
+  }
+  context.given = std::move(given);
   return context;
 }
 
@@ -210,12 +217,13 @@ FrameDraft SceneExpander::Program::draft_frame(UsedFiles used, EvaluationContext
 }
 
 Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
-                                                     const ExpansionWishes& wishes) const {
+                                                     const ExpansionWishes& wishes,
+                                                     Given given) const {
   ExpandedFrame result;
   result.scene = frame / config_.frames_per_scene;
   result.view = frame % config_.frames_per_scene;
   result.constraints.resize(compiled_.constraints.size());
-  Result<EvaluationContext> begun = context_of(result.scene, result.view);
+  Result<EvaluationContext> begun = context_of(result.scene, result.view, std::move(given));
   if (!begun) return forward_error(begun);
   EvaluationContext& context = *begun;
   const CompiledConstraint* unmet = nullptr;
@@ -295,6 +303,17 @@ Result<ExpandedFrame> SceneExpander::expand(std::int64_t frame,
                                             const ExpansionWishes& wishes) const {
   return program_->expand(frame, wishes);
 }
+
+Result<ExpandedFrame> SceneExpander::expand_given(std::int64_t scene, const Json& values,
+                                                  const std::string& where,
+                                                  const ExpansionWishes& wishes) const {
+  Result<std::vector<GivenValues>> given = read_graph(values, variables(), where);
+  if (!given) return forward_error(given);
+  return program_->expand(scene, wishes,
+                          std::make_shared<const std::vector<GivenValues>>(std::move(*given)));
+}
+
+const GraphVariables& SceneExpander::variables() const { return program_->variables(); }
 
 void SceneExpander::set_choices(std::shared_ptr<const RenderChoices> choices) {
   program_->choices = std::move(choices);

@@ -11,6 +11,7 @@
 #include "assets/offered_image.h"
 #include "base/allowed_folders.h"
 #include "base/error.h"
+#include "draws/variables.h"
 #include "scene/expanded_frame.h"
 #include "spec/quality_wish.h"
 
@@ -36,6 +37,15 @@ class SceneExpander {
   /// Frames are numbered scene by scene: frame = scene · frames_per_scene + view. Errors say which
   /// key of the config made the frame impossible.
   Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes = {}) const;
+
+  /// The one frame of a scene whose variables are given, as a line of graphs gives them
+  /// (docs/formats/graphs.md); other draws are the scene's. Of a config whose scenes have one
+  /// frame. `where` begins what is said against the values.
+  Result<ExpandedFrame> expand_given(std::int64_t scene, const Json& values,
+                                     const std::string& where,
+                                     const ExpansionWishes& wishes = {}) const;
+  /// What may be given.
+  const GraphVariables& variables() const;
 
   std::int64_t frame_count() const;
 

@@ -1,0 +1,138 @@
+// seedframe stream: frames for values of variables, on demand.
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "base/cores.h"
+#include "base/files.h"
+#include "cli/verb.h"
+#include "console/arguments.h"
+#include "console/exit_code.h"
+#include "console/home.h"
+#include "console/run_options.h"
+#include "console/say.h"
+#include "slurm/node_folder.h"
+#include "stream/frame_maker.h"
+#include "stream/stream_server.h"
+
+namespace seedframe {
+namespace {
+
+struct StreamArguments {
+  std::string config;
+  std::vector<std::string> set;
+  std::vector<std::string> allowed;
+  StreamOptions stream;
+  RunOptions run;
+};
+
+std::atomic<StreamServer*> g_server = nullptr;
+
+extern "C" void stop_stream(int) {
+  if (StreamServer* server = g_server.load()) server->stop();
+}
+
+/// While this lives, SIGINT and SIGTERM stop the server.
+class StopOnSignals {
+ public:
+  explicit StopOnSignals(StreamServer& server) {
+    g_server = &server;
+    struct sigaction action = {};
+    action.sa_handler = stop_stream;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    ::signal(SIGPIPE, SIG_IGN);  // a client that is gone is seen when it is written to
+  }
+  ~StopOnSignals() { g_server = nullptr; }
+  StopOnSignals(const StopOnSignals&) = delete;
+  StopOnSignals& operator=(const StopOnSignals&) = delete;
+};
+
+/// As a line of graphs is a scene with one frame, so is a request.
+Result<PreparedCampaign> prepare_stream(const StreamArguments& arguments,
+                                        const std::filesystem::path& folder) {
+  const std::filesystem::path graphs = folder / "graphs.jsonl";
+  if (Status written = write_file_unsynced(graphs, "{}\n"); !written) return forward_error(written);
+  std::vector<std::string> set = arguments.set;
+  set.push_back("graphs=" + graphs.string());
+  std::vector<std::string> allowed = with_own_assets(arguments.allowed);
+  allowed.push_back(folder.string());
+  Result<CampaignSource> source = read_source(arguments.config, set, seedframe_home(), allowed);
+  if (!source) return forward_error(source);
+  Result<PreparedCampaign> prepared = prepare(std::move(*source));
+  if (prepared && prepared->settings.quality) {
+    return fail(ErrorKind::kInput,
+                "{}: a section 'quality' is for campaigns, whose frames are calibrated before; "
+                "take it out with --set quality=null",
+                arguments.config);
+  }
+  return prepared;
+}
+
+int stream(const StreamArguments& arguments) {
+  const Result<NodeFolder> machine = NodeFolder::open({});
+  if (!machine) return report(machine.error());
+  const Result<NodeFolder::Task> own = machine->make_task();
+  if (!own) return report(own.error());
+  const std::filesystem::path folder = own->campaign();
+  if (Status made = make_folders(folder); !made) return report(made.error());
+  const Result<PreparedCampaign> prepared = prepare_stream(arguments, folder);
+  if (!prepared) return report(prepared.error());
+  constexpr std::int64_t kAnyNumber = 1 << 20;
+  const auto set_up = [&]() -> Result<RunSetup> {
+    CampaignSettings settings = prepared->settings;
+    settings.labels = LabelSource::kIndexPass;
+    return set_up_run(arguments.run, settings, kAnyNumber);
+  };
+  const int threads = arguments.run.pool.workers > 0 ? arguments.run.pool.workers : core_count();
+  StreamServer server(*prepared, arguments.stream);
+  const StopOnSignals stop(server);
+  FrameMaker maker(*prepared, threads, folder, set_up);
+  if (Status ran = server.run(maker); !ran) return report(ran.error());
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_stream_verb(CLI::App& app, const OnSelected& on_selected) {
+  auto arguments = std::make_shared<StreamArguments>();
+  StreamOptions& options = arguments->stream;
+  CLI::App* verb = app.add_subcommand(
+      "stream",
+      "make frames on demand: JSON lines of variables' values in, JSON lines with labels and "
+      "pictures out (docs/formats/stream.md); nothing is stored");
+  verb->add_option("CONFIG", arguments->config, "campaign config (docs/config.md)")->required();
+  verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
+      ->allow_extra_args(false);
+  add_allow_option(*verb, arguments->allowed);
+  verb->add_option("--fidelity", options.fidelity,
+                   "of requests that do not say: labels (the twin: milliseconds), preview (the "
+                   "twin, shaded: tens of milliseconds), render (Cycles: tenths of a second and "
+                   "more)")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, Fidelity>{{"labels", Fidelity::kLabels},
+                                                                  {"preview", Fidelity::kPreview},
+                                                                  {"render", Fidelity::kRender}},
+                                  CLI::ignore_case))
+      ->default_str("labels");
+  verb->add_option("--socket", options.socket,
+                   "listen at this path for clients, this user's alone, instead of stdin")
+      ->type_name("PATH");
+  verb->add_option("--most-open", options.most_open,
+                   "requests of a client that may wait for their answer; more are not read")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  verb->add_option("--heartbeat", options.heartbeat_s,
+                   "seconds of silence after which a client is told that we live; 0: never")
+      ->check(NotNegative())
+      ->capture_default_str();
+  add_run_options(*verb, arguments->run);
+  verb->footer("Example: echo '{\"id\": 1, \"values\": {}}' | seedframe stream configs/parts.yaml");
+  verb->callback(
+      [arguments, on_selected] { on_selected([arguments] { return stream(*arguments); }); });
+}
+
+}  // namespace seedframe

@@ -1,0 +1,112 @@
+// Makes frames for values of a config's variables, one by one, by whatever fidelity is asked for;
+// nothing of them stays.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "annotate/labels.h"
+#include "base/error.h"
+#include "campaign/finish_queue.h"
+#include "campaign/run_options.h"
+#include "image/image.h"
+#include "render/local_executor.h"
+#include "render/worker_pool.h"
+#include "scene/prepared_campaign.h"
+#include "stream/request.h"
+#include "twin/twin.h"
+
+namespace seedframe {
+
+struct MadeFrame {
+  std::string frame_id;
+  int width = 0;
+  int height = 0;
+  std::optional<FrameLabels> labels;                ///< as asked for
+  std::optional<Image<std::uint8_t>> image;         ///< RGB, for a display
+  std::optional<Image<std::uint16_t>> ids;          ///< 0 is background
+  std::optional<Image<float>> depth;                ///< planar, metres; kNoDepth where nothing is
+  std::map<std::string, std::string> pixel_hashes;  ///< as a campaign's manifest has them
+  double made_s = 0.0;                              ///< from when it was begun
+  double worker_s = 0.0;                            ///< of that in Blender
+};
+
+/// Told once, by some thread of the maker's.
+using FrameDone = std::function<void(Result<MadeFrame>)>;
+
+/// A frame that somebody waits for; `cancelled` may be set at any time.
+struct FrameOrder {
+  FrameRequest request;
+  FrameDone done;
+  std::shared_ptr<std::atomic<bool>> cancelled = std::make_shared<std::atomic<bool>>(false);
+  std::chrono::steady_clock::time_point came = std::chrono::steady_clock::now();
+};
+
+class FrameMaker : private RenderClient {
+ public:
+  /// Sets up what rendering needs, when the first frame is to be rendered.
+  using SetUp = std::function<Result<RunSetup>()>;
+
+  /// `threads` trace or finish frames; files of a rendering are written into `scratch` and removed.
+  /// `prepared` must outlive it.
+  FrameMaker(const PreparedCampaign& prepared, int threads, std::filesystem::path scratch,
+             SetUp set_up);
+  /// Waits for what is under way.
+  ~FrameMaker() override;
+
+  /// From any thread.
+  void make(FrameOrder order);
+
+ private:
+  /// Between expansion and the answer.
+  struct Rendering {
+    FrameOrder order;
+    ExpandedFrame frame;
+    std::chrono::steady_clock::time_point begun;
+  };
+
+  void begin(FrameOrder order);
+  Result<ExpandedFrame> expand(const FrameRequest& request) const;
+  Result<MadeFrame> trace(const FrameRequest& request, ExpandedFrame frame);
+  Status shade(const ExpandedFrame& frame, MadeFrame& made);
+
+  Status start_pool();
+  void finish(const FrameJob& job, const RenderTimings& timings);
+  Result<MadeFrame> read(const Rendering& rendering, const std::filesystem::path& passes);
+  std::filesystem::path passes_of(const FrameJob& job) const;
+  std::shared_ptr<Rendering> rendering_of(std::int64_t number);
+  void answer(std::int64_t number, Result<MadeFrame> made);
+
+  // What the pool asks and tells.
+  Result<std::optional<RenderRequest>> request(const FrameJob& job) override;
+  void started(const FrameJob&, int) override {}
+  void rendered(const FrameJob& job, const RenderTimings& timings, int worker) override;
+  void attempt_failed(const FrameJob& job, const AttemptFailure& failure) override;
+  Status check_system() override { return {}; }
+  void worker_ready(int, const ReadyMessage&) override {}
+
+  const PreparedCampaign& prepared_;
+  std::filesystem::path scratch_;
+  SetUp set_up_;
+  TwinTracer tracer_;
+  std::mutex mutex_;  ///< guards what follows
+  std::map<std::int64_t, std::shared_ptr<Rendering>> renderings_;
+  std::int64_t last_number_ = 0;
+  Status pool_state_;
+  std::optional<RunSetup> setup_;
+  std::unique_ptr<LocalExecutor> executor_;
+  std::unique_ptr<WorkerPool> pool_;
+  std::jthread pool_thread_;
+  std::unique_ptr<FinishQueue> queue_;  ///< its threads use all of the above
+};
+
+}  // namespace seedframe
