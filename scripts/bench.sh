@@ -9,7 +9,7 @@
 #
 #   scripts/bench.sh               all
 #   scripts/bench.sh NAME…         of error, quality, patches, scaling, forecast, expansion, twin, frame, stability, overhead, memory, export, report, store, audit, startup,
-#                                  determinism, throughput, slurm, detector
+#                                  determinism, throughput, slurm, stream, detector
 #   scripts/bench.sh detector-full the whole of results/detector, an hour, in place of a short version
 #   scripts/bench.sh quick         most of them, cut down to ten minutes in all, into build/quick/: does a change show?
 set -eu
@@ -33,7 +33,7 @@ if [ "${1:-}" = quick ]; then
   build/release/seedframe bench error configs/parts.yaml -o $quick/error --width 96 --frames 1 --budget 60s || failed=1
   exit $failed
 fi
-[ $# -gt 0 ] || set -- error quality patches scaling forecast expansion twin frame stability overhead memory export report store audit startup determinism throughput slurm detector
+[ $# -gt 0 ] || set -- error quality patches scaling forecast expansion twin frame stability overhead memory export report store audit startup determinism throughput slurm stream detector
 failed=0
 for name in "$@"; do
   case $name in
@@ -60,6 +60,7 @@ for name in "$@"; do
     forecast) tests/bench/forecast.py --report results/bench/forecast.md ;;
     scaling) tests/bench/scaling.py --largest-mesh 4000000 --report results/scaling ;;
     quality) tests/bench/quality.py --errors results/quality/errors.json --report results/quality/quality.md ;;
+    stream) tests/bench/stream.py --report results/bench/stream.md ;;
     startup) tests/bench/startup.py --report results/bench/startup.md ;;
     throughput) tests/bench/throughput.py --report results/bench/throughput.md ;;
     slurm) scripts/slurm-dev.sh install && tests/slurm/scaling.py --report results/scaling/slurm ;;

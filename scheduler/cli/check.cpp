@@ -17,6 +17,7 @@
 #include "console/home.h"
 #include "console/say.h"
 #include "report/scene_survey.h"
+#include "report/variable_description.h"
 #include "scene/expansion_summary.h"
 #include "scene/prepared_campaign.h"
 
@@ -30,6 +31,7 @@ struct CheckArguments {
   std::string graphs;
   std::string blender;
   bool json = false;
+  bool describe = false;
 };
 
 /// Expands all frames; with a file to write to, their variables go there as JSON lines.
@@ -74,6 +76,12 @@ int check(const CheckArguments& arguments) {
   if (!source) return report(source.error());
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (!prepared) return report(prepared.error());
+  if (arguments.describe) {
+    const Result<Json> variables = describe_variables(prepared->expander);
+    if (!variables) return report(variables.error());
+    fmt::print("{}", readable_json({{"name", prepared->settings.name}, {"variables", *variables}}));
+    return kExitOk;
+  }
   if (Status good = check_input_images(*prepared, cache_folder()); !good) {
     return report(good.error());
   }
@@ -132,6 +140,9 @@ void add_check_verb(CLI::App& app, const OnSelected& on_selected) {
           "--graphs", arguments->graphs,
           "write each frame's variables to this file, as JSON lines (docs/formats/graphs.md)")
       ->type_name("FILE");
+  verb->add_flag("--describe", arguments->describe,
+                 "only print the variables that can be set from outside, as JSON: type, unit, "
+                 "range, distribution, and value in the first frame");
   verb->add_flag("--json", arguments->json, "print what was found as JSON");
   verb->footer("Example: seedframe check configs/parts.yaml");
   verb->callback(

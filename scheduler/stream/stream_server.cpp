@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "base/files.h"
+#include "report/variable_description.h"
 #include "stream/stream_client.h"
 
 namespace seedframe {
@@ -283,6 +283,7 @@ void StreamServer::remove_gone() {
 }
 
 std::string StreamServer::ready_line() const {
+  const Result<Json> variables = describe_variables(prepared_.expander);
   const CampaignSettings& settings = prepared_.settings;
   return Json{{"ready",
                {{"protocol", kStreamProtocol},
@@ -294,22 +295,8 @@ std::string StreamServer::ready_line() const {
                 {"height", settings.render.height},
                 {"categories", settings.categories},
                 {"most_open", options_.most_open},
-                {"variables", describe_variables(prepared_.expander)}}}}
+                {"variables", variables ? *variables : Json()}}}}
       .dump();
-}
-
-Json describe_variables(const SceneExpander& expander) {
-  Json variables = Json::object();
-  for (const auto& [name, variable] : expander.variables()) {
-    const char* type = variable.type.type == ValueType::kText     ? "name"
-                       : variable.type.type == ValueType::kVector ? "vector"
-                                                                  : "number";
-    const Dimension& dimension = variable.type.dimension;
-    variables[name] = {{"type", type},
-                       {"unit", dimension.is_plain() ? Json() : Json(dimension.text())},
-                       {"per_copy", variable.per_copy}};
-  }
-  return variables;
 }
 
 }  // namespace seedframe

@@ -76,8 +76,4 @@ class StreamServer {
   std::vector<Answer> answers_;
 };
 
-/// The variables that may be given, for programs: by name their type, unit and whether copies have
-/// values of their own.
-Json describe_variables(const SceneExpander& expander);
-
 }  // namespace seedframe

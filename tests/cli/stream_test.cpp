@@ -11,6 +11,7 @@
 #include <sys/un.h>
 
 #include "tests/cli/program.h"
+#include "tests/cli/stream_program.h"
 
 namespace seedframe {
 namespace {
@@ -32,85 +33,6 @@ objects:
 camera: {position: [0m, -0.4m, height], target: [0, 0, 0], fov_deg: 50}
 )";
 
-/// The program with pipes to it.
-class Stream {
- public:
-  Stream(const fs::path& folder, std::vector<std::string> arguments,
-         const std::string& fake = "{}") {
-    int in[2];
-    int out[2];
-    if (::pipe2(in, O_CLOEXEC) != 0 || ::pipe2(out, O_CLOEXEC) != 0) std::abort();
-    process_ = ::fork();
-    if (process_ == 0) {
-      if (::chdir(folder.c_str()) != 0) ::_exit(126);
-      ::dup2(in[0], STDIN_FILENO);
-      ::dup2(out[1], STDOUT_FILENO);
-      if (std::freopen("err.txt", "w", stderr) == nullptr) ::_exit(126);
-      ::setenv("TMPDIR", folder.c_str(), 1);
-      ::setenv("SEEDFRAME_FAKE", fake.c_str(), 1);
-      arguments.insert(arguments.begin(), {SEEDFRAME_PROGRAM, "stream", "line.yaml"});
-      std::vector<char*> argv;
-      for (std::string& argument : arguments) argv.push_back(argument.data());
-      argv.push_back(nullptr);
-      ::execv(SEEDFRAME_PROGRAM, argv.data());
-      ::_exit(127);
-    }
-    ::close(in[0]);
-    ::close(out[1]);
-    in_ = in[1];
-    out_ = out[0];
-  }
-  ~Stream() {
-    if (process_ > 0) {
-      ::kill(process_, SIGKILL);
-      ::waitpid(process_, nullptr, 0);
-    }
-    close_input();
-    ::close(out_);
-  }
-
-  void say(const std::string& line, const std::string& end = "\n") const {
-    const std::string text = line + end;
-    ASSERT_EQ(::write(in_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
-  }
-  /// The next line that is no sign of life; null at the end.
-  Json hear() {
-    while (true) {
-      const std::size_t end = heard_.find('\n');
-      if (end != std::string::npos) {
-        Json json = Json::parse(heard_.substr(0, end));
-        heard_.erase(0, end + 1);
-        if (!json.contains("alive")) return json;
-        ++signs_of_life;
-        continue;
-      }
-      char buffer[65536];
-      const ssize_t bytes = ::read(out_, buffer, sizeof buffer);
-      if (bytes <= 0) return {};
-      heard_.append(buffer, static_cast<std::size_t>(bytes));
-    }
-  }
-  void close_input() {
-    if (in_ >= 0) ::close(in_);
-    in_ = -1;
-  }
-  void close_output() { ::close(std::exchange(out_, -1)); }
-  int wait() {
-    int status = 0;
-    ::waitpid(process_, &status, 0);
-    process_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-  pid_t process() const { return process_; }
-  int signs_of_life = 0;
-
- private:
-  pid_t process_ = -1;
-  int in_ = -1;
-  int out_ = -1;
-  std::string heard_;
-};
-
 class StreamTest : public ProgramTest {
  protected:
   void SetUp() override { write_config("line.yaml", kConfig); }
@@ -122,8 +44,13 @@ TEST_F(StreamTest, AnswersWithLabels) {
   Stream stream(folder_, {});
   const Json ready = stream.hear();
   EXPECT_EQ(ready["ready"]["width"], 24);
-  EXPECT_EQ(ready["ready"]["variables"]["turn"],
-            Json({{"type", "number"}, {"unit", "deg"}, {"per_copy", false}}));
+  const Json turn = ready["ready"]["variables"]["turn"];
+  EXPECT_EQ(turn["type"], "number");
+  EXPECT_EQ(turn["unit"], "deg");
+  EXPECT_EQ(turn["per_copy"], false);
+  EXPECT_EQ(turn["range"], Json({0, 90}));
+  EXPECT_EQ(turn["distribution"]["kind"], "uniform");
+  EXPECT_EQ(turn["distribution"]["level"], "scene");
   stream.say(R"({"id": "a", "values": {"turn": 45}})");
   const Json answer = stream.hear();
   EXPECT_EQ(answer["id"], "a");
@@ -422,6 +349,21 @@ TEST_F(StreamTest, AMissingBlenderIsAnErrorOfRenderingsAlone) {
   EXPECT_THAT(answer["error"]["message"].get<std::string>(), HasSubstr("/nowhere/blender"));
   stream.say(R"({"id": 2})");
   EXPECT_TRUE(stream.hear().contains("labels"));
+}
+
+TEST_F(StreamTest, CheckTellsTheVariables) {
+  std::string config = kConfig;
+  config.replace(config.find("variables:"), 10,
+                 "materials: {paint: {kind: plastic, base_color: tone}}\nvariables:");
+  config.replace(config.find("turn: {"), 7,
+                 "tone: {color: [{normal: [0.5, 0.1]}, 0.2, 0.3]}, turn: {");
+  write_config("line.yaml", config);
+  const Outcome outcome = run({"check", "line.yaml", "--describe"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const Json variables = Json::parse(outcome.output)["variables"];
+  EXPECT_EQ(variables["height"]["unit"], "m");
+  EXPECT_EQ(variables["height"]["range"], Json({0.2, 0.4}));
+  EXPECT_GE(variables["height"]["value"].get<double>(), 0.2);
 }
 
 TEST_F(StreamTest, RefusesWhatItCannotDo) {
