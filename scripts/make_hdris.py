@@ -163,7 +163,86 @@ def hall(random, directions):
     return light
 
 
-MAPS = [('studio', studio, 31), ('overcast', overcast, 32), ('hall', hall, 33)]
+ARENA_LOW, ARENA_HIGH = np.array([-13.0, -9.0, -0.5]), np.array([13.0, 9.0, 7.0])
+CLOTH = np.array([(0.45, 0.03, 0.03), (0.03, 0.06, 0.30), (0.02, 0.02, 0.02), (0.45, 0.45, 0.44), (0.05, 0.22, 0.08),
+                  (0.40, 0.20, 0.03), (0.16, 0.16, 0.18), (0.10, 0.03, 0.16), (0.50, 0.40, 0.05), (0.03, 0.20, 0.24)])
+
+
+def crowd(random, along, z, wall, spacing, share):
+    """People side by side: how much of the wall they hide, and their colours."""
+    count = 128
+    cloth = CLOTH[random.integers(0, len(CLOTH), count)]
+    legs = CLOTH[random.integers(0, 3, count)] * 0.5 + 0.012
+    skin = np.array([0.42, 0.24, 0.16]) * random.uniform(0.25, 1.1, (count, 1))
+    shift, tall = random.uniform(-0.16, 0.16, count), random.uniform(0.78, 1.08, count)
+    there = random.random(count) < share
+    who = (np.floor(along / spacing).astype(int) + 37 * wall) % count
+    x = (along / spacing - np.floor(along / spacing) - 0.5) * spacing - shift[who]
+    height = z / tall[who]
+    body = np.maximum(np.abs(x) / 0.25, np.abs(height - 0.72) / 0.74) ** 4
+    head = np.hypot(x / 0.10, (height - 1.6) / 0.14)
+    hidden = np.where(np.minimum(body, head) < 1.0, 1.0, 0.0) * there[who]
+    colour = np.where((head < 1.0)[..., None], skin[who], np.where((height > 0.8)[..., None], cloth[who], legs[who]))
+    return hidden, colour * (0.75 + 0.25 * np.cos(x * 6.0))[..., None]
+
+
+def banners(random, along, z, wall):
+    """Cloth on the boards around the field, with stripes for letters."""
+    count, width = 64, 2.6
+    ground = CLOTH[random.integers(0, len(CLOTH), count)] * 1.3
+    ink = np.where((ground.sum(1) < 0.6)[:, None], np.full(3, 0.6), np.full(3, 0.03))
+    which = (np.floor(along / width).astype(int) + 19 * wall) % count
+    x = along / width - np.floor(along / width)
+    letters = (np.sin(2.0 * np.pi * x * (7.0 + which % 5)) > -0.1) & (x > 0.12) & (x < 0.86)
+    letters &= np.abs(z - 0.52) < 0.16 * (0.6 + 0.4 * np.sin(40.0 * x + which))
+    inside = (np.abs(x - 0.5) < 0.47) & (np.abs(z - 0.5) < 0.36) & (which % 4 != 0)
+    return inside * 1.0, np.where(letters[..., None], ink[which], ground[which])
+
+
+def arena(window, lamp):
+    """A hall at a tournament: banners on boards, people behind them, tables, and windows that show `window`."""
+    def make(random, directions):
+        with np.errstate(divide='ignore', invalid='ignore'):
+            reach = np.where(directions > 0.0, ARENA_HIGH / directions, ARENA_LOW / directions)
+        reach = np.where(np.isfinite(reach), reach, 1e9)
+        side = np.argmin(reach, axis=-1)
+        points = directions * np.min(reach, axis=-1)[..., None]
+        x, y, z = points[..., 0], points[..., 1], points[..., 2] - ARENA_LOW[2]
+        along = np.where(side == 0, y, x)
+        wall = 2 * side + (np.where(side == 0, x, y) > 0.0)
+        light = 0.55 + 0.45 * step(z, -0.5, 4.0)
+        plaster = np.array([0.46, 0.45, 0.42]) * (1.0 - 0.06 * step(np.abs(along % 3.0 - 1.5), 1.42, 1.46))[..., None]
+        surface = mix(plaster, (0.24, 0.27, 0.31), 1.0 - step(z, 2.3, 2.34))
+        posters, poster_colour = banners(random, along + 0.7, (z - 3.2) / 1.3, wall)
+        surface = mix(surface, poster_colour, posters * (wall % 2))
+        tables = (1.0 - step(np.abs(z - 0.74), 0.03, 0.05)) * (np.abs(along % 4.0 - 2.0) < 1.6)
+        for spacing, share in ((0.62, 0.5), (0.85, 0.45)):
+            hidden, colour = crowd(random, along, z - 0.1, wall, spacing, share)
+            surface = mix(surface, colour, hidden)
+        surface = mix(surface, (0.30, 0.24, 0.17), tables)
+        screens = (np.abs(along % 2.0 - 1.0) < 0.17) & (np.abs(z - 0.92) < 0.12) & (np.floor(along / 2.0) % 3 != 0)
+        surface = mix(surface, (0.25, 0.34, 0.45), screens * 1.0)
+        boards = 1.0 - step(z, 0.55, 0.57)
+        surface = mix(surface, (0.50, 0.50, 0.48), boards)
+        hung, cloth = banners(random, along, z / 0.56, wall)
+        surface = mix(surface, cloth, hung * boards) * light[..., None]
+        glass = step(z, 4.4, 4.45) * (1.0 - step(z, 6.4, 6.45)) * (1.0 - step(np.abs(along % 2.1 - 1.05), 0.92, 0.95))
+        glass = glass * ((side == 1) | (wall == 1))
+        clouds = 1.0 + 0.25 * noise(random, np.stack([along, z, 0.0 * z], -1), 0.5, 3.0)
+        surface = mix(surface, np.array(window) * np.clip(clouds, 0.3, 2.0)[..., None], glass)
+        trusses = step(np.abs(x % 4.0 - 2.0), 1.86, 1.9)
+        ceiling = mix((0.22, 0.22, 0.215), (0.10, 0.10, 0.105), trusses)
+        ceiling = ceiling + lamp_rows(x, y)[..., None] * np.array(lamp)
+        floor = np.array([0.17, 0.165, 0.16]) * np.ones(z.shape + (1,))
+        level = np.where((points[..., 2] > 0.0)[..., None], ceiling, floor)
+        return np.where((side == 2)[..., None], level, surface)
+    return make
+
+
+MAPS = [('studio', studio, 31), ('overcast', overcast, 32), ('hall', hall, 33),
+        ('arena_day', arena((3.4, 3.7, 4.2), (9.0, 9.0, 8.8)), 34),
+        ('arena_evening', arena((1.5, 0.85, 0.55), (13.0, 11.4, 8.6)), 35),
+        ('arena_night', arena((0.02, 0.025, 0.05), (13.5, 13.3, 13.0)), 36)]
 
 
 # ---- files ----------------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import numpy as np
 
 from make_textures_fields import COLUMNS, ROWS, SIZE, blend, cells, noise, ramp, stamps, step, warped
+from make_textures_pitch import line_paint, turf
 
 
 # ---- sets -----------------------------------------------------------------------------------------
@@ -291,7 +292,8 @@ SETS = [('Concrete01', concrete, 11), ('Planks01', planks, 12), ('Plywood01', pl
         ('Fabric01', fabric, 16), ('DiamondPlate01', diamond_plate, 17), ('Cardboard01', cardboard, 18),
         ('Carpet01', carpet, 19), ('RustyMetal01', rusty_metal, 20), ('ScratchedMetal01', scratched_metal, 21),
         ('Brick01', brick, 22), ('Marble01', marble, 23), ('Granite01', granite, 24),
-        ('RubberMat01', rubber_mat, 25), ('Leather01', leather, 26)]
+        ('RubberMat01', rubber_mat, 25), ('Leather01', leather, 26),
+        ('Turf01', turf, 40), ('LinePaint01', line_paint, 41)]
 
 
 # ---- files ----------------------------------------------------------------------------------------
