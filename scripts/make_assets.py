@@ -15,6 +15,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bmesh
 from mathutils import Vector
 
+import make_assets_field as field
 import make_assets_household as household
 import make_assets_parts as parts
 import make_assets_robot as robot
@@ -51,11 +52,12 @@ ASSETS = [
     ('cylinder', parts.cylinder, wrapped(on_cylinder)),
     ('cone', parts.cone, wrapped(on_cylinder)),
     ('torus', parts.torus, project),
-] + [(name, shape, None) for name, shape in robot.ASSETS + soccer.ASSETS + household.ASSETS]
+] + [(name, shape, None)
+     for name, shape in robot.ASSETS + soccer.ASSETS + field.ASSETS + household.ASSETS]
 
 # The material slots, in the order of the faces' material_index. All others: ONE_SLOT.
 ONE_SLOT = ('body',)
-SLOTS = {**robot.SLOTS, **soccer.SLOTS, **household.SLOTS}
+SLOTS = {**robot.SLOTS, **soccer.SLOTS, **field.SLOTS, **household.SLOTS}
 
 
 def centre(mesh):

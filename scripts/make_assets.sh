@@ -43,8 +43,10 @@ import_part robot_standing 40 "Humanoid robot of 57 cm, standing, facing +x" rob
 import_part robot_sitting 40 "Humanoid robot, sitting with its legs stretched out, facing +x" robot
 import_part robot_lying 40 "Humanoid robot, lying on its back, head towards +x" robot
 import_part spl_ball 30 "Soccer ball of 100 mm for small robots" ball
-import_part spl_goal 40 "Soccer goal of 1.5 x 0.8 m for small robots, opening towards +x" goal
-import_part spl_field 30 "Soccer field of 9 x 6 m on a carpet of 10.4 x 7.4 m" field
+import_part spl_goal_post 40 "Post of a soccer goal, 0.9 m high" goal_post
+import_part spl_goal 40 "Crossbar and net of a soccer goal of 1.5 x 0.8 m for small robots, opening towards +x" goal
+import_part spl_field 30 "Carpet of 10.4 x 7.4 m for a soccer field of 9 x 6 m" field
+import_part spl_lines 30 "Lines of a soccer field of 9 x 6 m, 5 cm wide" line
 
 import_part mug 40 "Mug of 0.3 l, its handle towards +x"
 import_part teapot 40 "Round teapot, its spout towards +x"

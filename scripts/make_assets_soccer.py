@@ -1,4 +1,4 @@
-"""What robots play soccer with, in millimetres: the ball, goal and field of the RoboCup Standard Platform League
+"""What robots play soccer with, in millimetres: the ball and the goal of the RoboCup Standard Platform League
 (rules of 2017)."""
 
 import math
@@ -7,7 +7,7 @@ import bmesh
 from mathutils import Vector
 
 from make_assets_forms import egg, grouped, painted, posed, spline, sweep, uv_layer
-from make_assets_shapes import box, cut, joined, lathe, moved, turned
+from make_assets_shapes import lathe, moved, turned
 
 # ---- ball -----------------------------------------------------------------------------------------
 
@@ -42,18 +42,20 @@ def truncated_icosahedron():
     return faces
 
 
-def spl_ball(radius=50.0, steps=8):
+def spl_ball(radius=50.0, steps=8, seam=0.7):
+    """Between its patches it is `seam` deep."""
     mesh = bmesh.new()
     layer = uv_layer(mesh)
     known = {}
 
-    def vertex(direction):
+    def vertex(direction, depth):
         key = tuple(round(x * 1e5) for x in direction)
         # Neighbours compute the points of their seam from other ends.
         if key not in known:
             near = [tuple(k + d for k, d in zip(key, step)) for step in
                     ((x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1))]
-            known[key] = next((known[k] for k in near if k in known), None) or mesh.verts.new(direction * radius)
+            known[key] = next((known[k] for k in near if k in known), None) or mesh.verts.new(
+                direction * (radius - depth))
         return known[key]
 
     for corners in truncated_icosahedron():
@@ -61,7 +63,8 @@ def spl_ball(radius=50.0, steps=8):
         right = (corners[0] - middle * corners[0].dot(middle)).normalized()
         upward = middle.cross(right)
         for a, b in zip(corners, corners[1:] + corners[:1]):
-            rows = [[vertex((middle + (a - middle) * ((i - k) / steps) + (b - middle) * (k / steps)).normalized())
+            rows = [[vertex((middle + (a - middle) * ((i - k) / steps) + (b - middle) * (k / steps)).normalized(),
+                            seam if i == steps else 0.0)
                      for k in range(i + 1)] for i in range(steps + 1)]
             triangles = [(rows[i][k], rows[i + 1][k], rows[i + 1][k + 1])
                          for i in range(steps) for k in range(i + 1)]
@@ -84,15 +87,19 @@ GOAL_SLOTS = ('frame', 'net')
 POST_RADIUS, GOAL_WIDTH, GOAL_HEIGHT, GOAL_DEPTH = 50.0, 1500.0, 800.0, 500.0
 
 
+def spl_goal_post():
+    """One post, its axis at the origin. The crossbar's end sits in the round corner on it."""
+    top = GOAL_HEIGHT + POST_RADIUS
+    post = lathe([(0.0, 0.0), (POST_RADIUS, 0.0), (POST_RADIUS, top), (0.0, top)], 48)
+    corner = moved(egg(*[POST_RADIUS * 1.002] * 5, count=48), z=top)
+    return grouped([painted(post, 0), painted(corner, 0)])
+
+
 def spl_goal():
-    """The posts' axes stand at x = 0; the net hangs towards -x. Width and height are the opening's."""
+    """All but the posts, whose axes stand at x = 0: the crossbar, and the net towards -x. Width and height are
+    the opening's."""
     y, top = GOAL_WIDTH / 2.0 + POST_RADIUS, GOAL_HEIGHT + POST_RADIUS
     pieces = []
-    post = [(0.0, 0.0), (POST_RADIUS, 0.0), (POST_RADIUS, top), (0.0, top)]
-    for side in (-y, y):
-        # The crossbar's ends sit in round corners on the posts.
-        pieces.append(painted(moved(lathe(post, 48), y=side), FRAME))
-        pieces.append(painted(moved(egg(*[POST_RADIUS * 1.002] * 5, count=48), y=side, z=top), FRAME))
     bar = lathe([(0.0, -y), (POST_RADIUS, -y), (POST_RADIUS, y), (0.0, y)], 48)
     pieces.append(painted(moved(turned(bar, 90.0, 'X'), z=top), FRAME))
 
@@ -162,44 +169,5 @@ def net(y, side_line, mesh_size=60.0, radius=2.2):
     return pieces
 
 
-# ---- field ----------------------------------------------------------------------------------------
-
-CARPET, LINE = range(2)
-FIELD_SLOTS = ('carpet', 'line')
-
-
-def spl_field():
-    """The field is measured between the middles of its lines; x runs from goal to goal."""
-    half_x, half_y, border, thickness, line = 4500.0, 3000.0, 700.0, 10.0, 50.0
-    low, high = thickness - 4.0, thickness + 1.0
-    half = line / 2.0
-
-    def bar(x0, x1, y0, y1):
-        return box(min(x0, x1), max(x0, x1), min(y0, y1), max(y0, y1), low, high)
-
-    def along_x(x0, x1, y):
-        return bar(x0 - half, x1 + half, y - half, y + half)
-
-    def frame(x0, x1, y0, y1):
-        return cut(bar(x0 - half, x1 + half, y0 - half, y1 + half),
-                   box(x0 + half, x1 - half, y0 + half, y1 - half, low - 10.0, high + 10.0))
-
-    lines = joined(frame(-half_x, half_x, -half_y, half_y), bar(-half, half, -half_y, half_y))
-    middle = lathe([(750.0 - half, low), (750.0 + half, low), (750.0 + half, high), (750.0 - half, high)],
-                   128, closed=True)
-    # Turned by half a step, so that no corner of the ring lies on the halfway line's edges.
-    lines = joined(lines, turned(middle, 180.0 / 128, 'Z'), bar(-50.0, 50.0, -half, half))
-    pieces = []
-    for side in (-1.0, 1.0):
-        lines = joined(lines, bar(side * half_x, side * (half_x - 600.0 - half), 1100.0 - half, 1100.0 + half),
-                       bar(side * half_x, side * (half_x - 600.0 - half), -1100.0 - half, -1100.0 + half),
-                       bar(side * (half_x - 600.0 - half), side * (half_x - 600.0 + half), -1100.0, 1100.0))
-        spot = side * (half_x - 1300.0)
-        pieces.append(painted(joined(bar(spot - 50.0, spot + 50.0, -half, half),
-                                     bar(spot - half, spot + half, -50.0, 50.0)), LINE))
-    carpet = box(-half_x - border, half_x + border, -half_y - border, half_y + border, 0.0, thickness)
-    return grouped([painted(carpet, CARPET), painted(lines, LINE)] + pieces)
-
-
-ASSETS = [('spl_ball', spl_ball), ('spl_goal', spl_goal), ('spl_field', spl_field)]
-SLOTS = {'spl_ball': BALL_SLOTS, 'spl_goal': GOAL_SLOTS, 'spl_field': FIELD_SLOTS}
+ASSETS = [('spl_ball', spl_ball), ('spl_goal_post', spl_goal_post), ('spl_goal', spl_goal)]
+SLOTS = {'spl_ball': BALL_SLOTS, 'spl_goal_post': ('post',), 'spl_goal': GOAL_SLOTS}

@@ -20,11 +20,20 @@ sheet() {
   "$seedframe" show "$work/$name" all --sheet "$columns" --tile-width "$width" --layers image --plain \
     -o "results/scenes/$name.jpg" --overwrite
 }
+
+# masks NAME COLUMNS WIDTH FRAMES: the classes in these frames of a campaign that sheet() has made.
+masks() {
+  [ -d "$work/$1" ] || return 0
+  "$seedframe" show "$work/$1" "$4" --sheet "$2" --tile-width "$3" --layers semantic --plain \
+    -o "results/scenes/$1_masks.jpg" --overwrite
+}
 quarter="--set render.width=320 --set render.height=240"
 
-# Figure 2 of paper 1: a row for each tint; in it for each intensity three field colours.
+# Figure 2 of paper 1: a row for each tint; in it for each intensity three field colours. And the masks of its third row.
 sheet robocup_fig2 6 320 robocup_fig2 $quarter --set render.samples=48
-sheet robocup_spl 4 320 robocup_spl $quarter --set render.samples=48 --set scenes=6 --set frames_per_scene=2
+masks robocup_fig2 6 320 12-17
+sheet robocup_spl 4 320 robocup_spl $quarter --set render.samples=64 --set scenes=6 --set frames_per_scene=2
+sheet robocup_hall 3 320 robocup_hall $quarter --set render.samples=64 --set scenes=3 --set frames_per_scene=2
 sheet parts_study 3 320 parts_study $quarter --set render.samples=48 --set scenes=3 --set frames_per_scene=2
 # Paper 3: 8 attributes, five classes; the initial distributions above, the target ones below.
 sheet tyol_initial 8 128 tyol_multi_8_initial --set scenes=16

@@ -136,6 +136,7 @@ void Surveyor::look_at_instance(const FrameSpec& spec, std::size_t index, const 
     if (camera.z() < box.low.z()) ++frames_below_;
     return;
   }
+  if (instance.hidden_from.camera) return;  // that it is not seen is meant
   Section& section = sections_[section_of(instance.name)];
   ++section.frames;
   section.labelled = section.labelled || instance.category != 0;

@@ -36,7 +36,7 @@ TEST_F(PinnedDataset, LabelsOfTheParts) {
 TEST_F(PinnedDataset, LabelsOfTheRobocupScene) {
   label("robocup_spl.yaml");
   EXPECT_EQ(hash_of("c/frames"),
-            "d1be33cf7f551b15d1858c35caa9d179c621d9d409fa1f43f4b986a3291aac3b");
+            "bd5bd607819af2b424f55d5a1786ff0f479aca5e8ef7c8032244133bd60da3b4");
 }
 
 TEST_F(PinnedDataset, LabelsOfTheTyolScene) {

@@ -40,6 +40,19 @@ TEST(SceneSurvey, AnOrdinarySceneIsNotWarnedOf) {
   EXPECT_EQ(survey.height, 120);
 }
 
+TEST(SceneSurvey, WhatIsHiddenFromTheCameraIsMeantNotToBeSeen) {
+  const std::string objects =
+      "scenes: 2\ncategories: [cube]\n"
+      "objects: {box: {asset: cube, category: cube, rest_on_ground: true}, "
+      "shade: {asset: cube, category: none, position: [0.1, 0, 0.03]HIDDEN}}\n";
+  const auto with = [&](const std::string& hidden) {
+    std::string text = objects + kCamera;
+    return survey_of(text.replace(text.find("HIDDEN"), 6, hidden)).warnings;
+  };
+  EXPECT_THAT(with(", hidden_from: [camera]"), IsEmpty());
+  EXPECT_THAT(with(", scale: 0.001"), ElementsAre(HasSubstr("'shade' is in")));
+}
+
 TEST(SceneSurvey, MillimetresThatWereTakenForMetres) {
   EXPECT_THAT(
       survey_of("scenes: 2\n" + cube("scale: 1000") + kCamera).warnings,
