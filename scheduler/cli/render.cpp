@@ -20,6 +20,7 @@
 #include "image/exr_file.h"
 #include "image_files/image_writer.h"
 #include "quality/side_renderer.h"
+#include "sensor/camera_sensor.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -53,7 +54,8 @@ Status write_picture(const SideFrame& frame, const ColorManagement& color, const
   if (!format) return forward_error(format);
   const FramePasses passes = on_whole_image(frame.passes, frame.spec.render);
   if (!*format) return write_exr(file, passes.combined, {"R", "G", "B", "A"});
-  const auto display = color.apply(passes.combined, frame.spec.image);
+  auto display = color.apply(passes.combined, frame.spec.image);
+  if (display && frame.spec.sensor) display = through_sensor(*display, *frame.spec.sensor);
   if (!display) return forward_error(display);
   const auto bytes = encode_image(*display, {.format = **format});
   if (!bytes) return forward_error(bytes);

@@ -224,6 +224,7 @@ Result<CampaignConfig> read_campaign_config(const std::string& text,
   config.max_attempts = static_cast<int>(section.integer("max_attempts", 100, 1, 100'000));
   read_graphs(section, config);
   if (const auto camera = section.require("camera")) config.camera = read_camera(*camera, errors);
+  if (const auto sensor = section.find("sensor")) config.sensor = read_sensor(*sensor, errors);
   section.refuse_other_keys();
   if (!errors.empty()) return tl::unexpected(errors.as_error());
   config.files = root->named_files();

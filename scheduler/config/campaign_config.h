@@ -229,6 +229,14 @@ struct CameraConfig {
   std::optional<NumberSource> focus_distance_m;  ///< none: the distance to the target
 };
 
+/// Over the finished picture; see SensorSettings.
+struct SensorConfig {
+  Level redraw = Level::kFrame;
+  NumberSource blur_px, exposure_stops, full_well, read_noise, jpeg_quality;
+  ColorSource white_balance;  ///< of the light that becomes white
+  Place place;
+};
+
 struct CampaignConfig {
   std::string name;
   std::uint64_t seed = 0;
@@ -251,6 +259,7 @@ struct CampaignConfig {
   std::optional<GroundConfig> ground;
   WorldConfig world;
   CameraConfig camera;
+  std::optional<SensorConfig> sensor;
   SweepConfig sweep;
   std::vector<ConstraintConfig> constraints;
   int max_attempts = 100;                       ///< to meet all constraints in a frame

@@ -172,4 +172,19 @@ CameraConfig read_camera(const ConfigNode& node, Diagnostics& errors) {
   return camera;
 }
 
+SensorConfig read_sensor(const ConfigNode& node, Diagnostics& errors) {
+  SensorConfig sensor;
+  sensor.place = node.place();
+  SectionReader section(node, errors);
+  sensor.redraw = section.redraw(Level::kFrame);
+  sensor.blur_px = section.number("blur_px", 0.0);
+  sensor.exposure_stops = section.number("exposure_stops", 0.0);
+  sensor.full_well = section.number("full_well", 0.0);
+  sensor.read_noise = section.number("read_noise", 0.0);
+  sensor.white_balance = section.color("white_balance", {1, 1, 1});
+  sensor.jpeg_quality = section.number("jpeg_quality", 0.0);
+  section.refuse_other_keys();
+  return sensor;
+}
+
 }  // namespace seedframe

@@ -1,5 +1,5 @@
 // The sections of a config that describe what a scene holds: materials, objects, lights, ground,
-// world, camera. Every reader reports what is wrong and returns something usable.
+// world, camera, sensor. Every reader reports what is wrong and returns something usable.
 #pragma once
 
 #include <vector>
@@ -15,5 +15,6 @@ std::vector<LightConfig> read_lights(SectionReader& campaign);
 GroundConfig read_ground(const ConfigNode& node, Diagnostics& errors);
 WorldConfig read_world(SectionReader& campaign);
 CameraConfig read_camera(const ConfigNode& node, Diagnostics& errors);
+SensorConfig read_sensor(const ConfigNode& node, Diagnostics& errors);
 
 }  // namespace seedframe

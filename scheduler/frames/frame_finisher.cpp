@@ -11,6 +11,7 @@
 #include "image/pixel_hash.h"
 #include "image/png_file.h"
 #include "image_files/image_writer.h"
+#include "sensor/camera_sensor.h"
 #include "twin/twin_comparison.h"
 
 namespace seedframe {
@@ -109,7 +110,8 @@ Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorM
   if (!twin) return forward_error(twin);
   const Result<TwinTally> tally = check_with_twin(task, check_, ids, *twin);
   if (!tally) return forward_error(tally);
-  const auto image = color.apply(passes.combined, task.spec.image);
+  Result<Image<std::uint8_t>> image = color.apply(passes.combined, task.spec.image);
+  if (image && task.spec.sensor) image = through_sensor(*image, *task.spec.sensor);
   if (!image) return forward_error(image);
   const auto picture = encode_image(*image, encoding_);
   if (!picture) return forward_error(picture);

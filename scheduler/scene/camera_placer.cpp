@@ -86,6 +86,21 @@ Affine parent_of(const CompiledConfig& config, const FrameDraft& draft,
   return section.world_from_first;
 }
 
+/// Gains that make this light white, of which green is 1.
+std::array<double, 3> gains_for(const CompiledSensor& sensor, EvaluationContext& context) {
+  const Rgb light = sensor.white_balance.evaluate(context);
+  constexpr double kMostGain = 64.0;
+  const auto [least, most] = std::minmax_element(light.begin(), light.end());
+  if (*least <= 0.0 || *most / *least > kMostGain) {
+    context.report(sensor.place,
+                   fmt::format("white_balance must have red, green and blue, none above {} times "
+                               "another, found [{}, {}, {}]",
+                               kMostGain, light[0], light[1], light[2]));
+    return {1.0, 1.0, 1.0};
+  }
+  return {light[1] / light[0], 1.0, light[1] / light[2]};
+}
+
 }  // namespace
 
 Affine place_camera(const CompiledConfig& config, FrameDraft& draft, EvaluationContext& context) {
@@ -113,6 +128,26 @@ Affine place_camera(const CompiledConfig& config, FrameDraft& draft, EvaluationC
   }
   return parent_of(config, draft, context) *
          looking_at(position, target, camera.roll_deg.evaluate(context));
+}
+
+void set_sensor(const std::optional<CompiledSensor>& sensor, FrameSpec& spec,
+                EvaluationContext& context) {
+  if (!sensor) return;
+  constexpr double kMostStops = 16.0, kMostBlurPx = 32.0, kMostElectrons = 1e7;
+  SensorSettings& settings = spec.sensor.emplace();
+  settings.blur_px = within(sensor->blur_px, 0.0, kMostBlurPx, "blur_px", context);
+  settings.exposure_stops =
+      within(sensor->exposure_stops, -kMostStops, kMostStops, "exposure_stops", context);
+  settings.full_well = within(sensor->full_well, 0.0, kMostElectrons, "full_well", context);
+  settings.read_noise = within(sensor->read_noise, 0.0, kMostElectrons, "read_noise", context);
+  if (settings.read_noise > 0.0 && settings.full_well == 0.0) {
+    context.report(sensor->read_noise.place(),
+                   "read_noise is in electrons: say with full_well how many of them are white");
+  }
+  settings.white_balance = gains_for(*sensor, context);
+  settings.jpeg_quality = static_cast<int>(
+      std::floor(within(sensor->jpeg_quality, 0.0, 100.0, "jpeg_quality", context) + 0.5));
+  settings.seed = sensor->seed.cycles_seed(context.position(Level::kFrame));
 }
 
 }  // namespace seedframe

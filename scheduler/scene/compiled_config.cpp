@@ -28,6 +28,7 @@ class Compiler {
     compiled_.frame_variables = block(config_.frame_variables, "variables.frame.", Level::kFrame);
     compile_world_and_ground();
     compile_camera();
+    compile_sensor();
     count_scope_ = scope_;
     built_in.copy_index = add_built_in("copy_index");
     built_in.copies = add_built_in("copies");
@@ -88,6 +89,20 @@ class Compiler {
                        section.number(config_.ground->curvature_per_m, "curvature_per_m"),
                        section.materials(config_.ground->material, materials_, "material", false),
                        config_.ground->place};
+  }
+
+  void compile_sensor() {
+    if (!config_.sensor) return;
+    const SensorConfig& config = *config_.sensor;
+    const SectionCompiler section(scope_, "sensor", config.redraw, errors_);
+    compiled_.sensor = CompiledSensor{config.place,
+                                      section.number(config.blur_px, "blur_px"),
+                                      section.number(config.exposure_stops, "exposure_stops"),
+                                      section.number(config.full_well, "full_well"),
+                                      section.number(config.read_noise, "read_noise"),
+                                      section.number(config.jpeg_quality, "jpeg_quality"),
+                                      section.color(config.white_balance, "white_balance"),
+                                      PhiloxStream(scope_.seed, "sensor.seed")};
   }
 
   void compile_camera() {

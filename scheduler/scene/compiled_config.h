@@ -122,6 +122,13 @@ struct CompiledCamera {
   std::optional<NumberDraw> focus_distance_m;
 };
 
+struct CompiledSensor {
+  Place place;
+  NumberDraw blur_px, exposure_stops, full_well, read_noise, jpeg_quality;
+  ColorDraw white_balance;
+  PhiloxStream seed;
+};
+
 struct CompiledConstraint {
   std::string name;
   Place place;
@@ -158,6 +165,7 @@ struct CompiledConfig {
   std::optional<CompiledGround> ground;
   CompiledWorld world;
   CompiledCamera camera;
+  std::optional<CompiledSensor> sensor;
   CompiledSweep sweep;
   std::vector<CompiledConstraint> constraints;
   std::size_t sections = 0;  ///< number of objects, nested ones too

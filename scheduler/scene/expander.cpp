@@ -198,6 +198,7 @@ FrameDraft SceneExpander::Program::draft_frame(UsedFiles used, EvaluationContext
   lower_flush_ground(draft);
   const Affine world_from_camera = place_camera(compiled_, draft, context);
   draft.world_from_camera = world_from_camera;
+  set_sensor(compiled_.sensor, spec, context);
   add_lights(compiled_, world_from_camera, draft, context);
   set_world(compiled_.world, world_from_camera, materials_, draft, context);
   check_cut_outs(spec, context);

@@ -134,6 +134,16 @@ void write_render(CanonicalWriter& out, const RenderSettings& render) {
   out.field("width", static_cast<double>(render.width));
 }
 
+void write_sensor(CanonicalWriter& out, const SensorSettings& sensor) {
+  out.field("blur_px", sensor.blur_px);
+  out.field("exposure_stops", sensor.exposure_stops);
+  out.field("full_well", sensor.full_well);
+  out.field("jpeg_quality", static_cast<double>(sensor.jpeg_quality));
+  out.field("read_noise", sensor.read_noise);
+  out.field("seed", static_cast<double>(sensor.seed));
+  out.numbers("white_balance", sensor.white_balance);
+}
+
 void write_world(CanonicalWriter& out, const WorldSpec& world) {
   out.numbers("color", world.color);
   if (!world.hdri.empty()) {
@@ -146,7 +156,9 @@ void write_world(CanonicalWriter& out, const WorldSpec& world) {
 
 int version_of(const FrameSpec& spec) {
   constexpr int kLevers = 6;
-  if (spec.render.region || spec.labels.target != 0) return kFrameSpecVersion;
+  constexpr int kRegions = 7;
+  if (spec.sensor) return kFrameSpecVersion;
+  if (spec.render.region || spec.labels.target != 0) return kRegions;
   return spec.render.levers != RenderLevers{} ? kLevers : kOldestFrameSpecVersion;
 }
 
@@ -158,6 +170,7 @@ void write_frame_spec(CanonicalWriter& out, const FrameSpec& spec) {
   out.objects("lights", spec.lights, write_light);
   out.objects("materials", spec.materials, write_material);
   out.object("render", spec.render, write_render);
+  if (spec.sensor) out.object("sensor", *spec.sensor, write_sensor);
   out.field("version", static_cast<double>(version_of(spec)));
   out.object("world", spec.world, write_world);
 }

@@ -15,11 +15,12 @@
 #include "base/pixel_rect.h"
 #include "spec/image_settings.h"
 #include "spec/keypoint.h"
+#include "spec/sensor_settings.h"
 
 namespace seedframe {
 
 /// The newest. A frame is of the oldest version that has all that it needs, and so keeps its id.
-inline constexpr int kFrameSpecVersion = 7;
+inline constexpr int kFrameSpecVersion = 8;
 inline constexpr int kOldestFrameSpecVersion = 5;
 
 /// Linear RGB, Rec.709 primaries.
@@ -179,6 +180,8 @@ struct FrameSpec {
   std::vector<InstanceSpec> instances;
   std::vector<LightSpec> lights;
   ImageSettings image;
+  /// Since version 8; none: pictures are as colour management has them.
+  std::optional<SensorSettings> sensor;
   LabelSettings labels;
 };
 

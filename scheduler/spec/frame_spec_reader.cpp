@@ -129,6 +129,18 @@ InstanceSpec instance_from_json(const Json& json) {
   return instance;
 }
 
+SensorSettings sensor_from_json(const Json& json) {
+  SensorSettings sensor;
+  json.at("blur_px").get_to(sensor.blur_px);
+  json.at("exposure_stops").get_to(sensor.exposure_stops);
+  json.at("full_well").get_to(sensor.full_well);
+  sensor.jpeg_quality = integer_of<int>(json.at("jpeg_quality"));
+  json.at("read_noise").get_to(sensor.read_noise);
+  sensor.seed = integer_of<std::uint32_t>(json.at("seed"));
+  json.at("white_balance").get_to(sensor.white_balance);
+  return sensor;
+}
+
 FrameSpec read(const Json& json) {
   FrameSpec spec;
   spec.render = render_from_json(json.at("render"));
@@ -160,6 +172,7 @@ FrameSpec read(const Json& json) {
   image.at("look").get_to(spec.image.look);
   image.at("exposure_stops").get_to(spec.image.exposure_stops);
   image.at("gamma").get_to(spec.image.gamma);
+  if (json.contains("sensor")) spec.sensor = sensor_from_json(json.at("sensor"));
   const Json& labels = json.at("labels");
   labels.at("twin_exact").get_to(spec.labels.twin_exact);
   if (labels.contains("target")) spec.labels.target = integer_of<int>(labels.at("target"));
