@@ -367,4 +367,5 @@ def main():
             write_set(root, name, make(np.random.Generator(np.random.Philox(seed))))
 
 
-main()
+if __name__ == '__main__':
+    main()
