@@ -12,6 +12,7 @@
 #include "image/pixel_hash.h"
 #include "picture/pixel_scaling.h"
 #include "preview/twin_shading.h"
+#include "sensor/camera_sensor.h"
 #include "spec/frame_spec_reader.h"
 #include "spec/scaled_view.h"
 #include "twin/twin_comparison.h"
@@ -232,6 +233,7 @@ Result<MadeFrame> FrameMaker::read(const Rendering& rendering, const fs::path& p
   made.height = spec.render.height;
   made.pixel_hashes = passes.pixel_hashes;
   Result<Image<std::uint8_t>> image = setup_->color->apply(passes.combined, spec.image);
+  if (image && spec.sensor) image = through_sensor(*image, *spec.sensor);
   if (!image) return forward_error(image);
   made.pixel_hashes["image"] = pixel_hash(*image, "R,G,B");
   const Result<Twin> twin =

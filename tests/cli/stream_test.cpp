@@ -352,12 +352,6 @@ TEST_F(StreamTest, AMissingBlenderIsAnErrorOfRenderingsAlone) {
 }
 
 TEST_F(StreamTest, CheckTellsTheVariables) {
-  std::string config = kConfig;
-  config.replace(config.find("variables:"), 10,
-                 "materials: {paint: {kind: plastic, base_color: tone}}\nvariables:");
-  config.replace(config.find("turn: {"), 7,
-                 "tone: {color: [{normal: [0.5, 0.1]}, 0.2, 0.3]}, turn: {");
-  write_config("line.yaml", config);
   const Outcome outcome = run({"check", "line.yaml", "--describe"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   const Json variables = Json::parse(outcome.output)["variables"];
