@@ -131,7 +131,6 @@ def lost_node(program, nodes):
     resumes, complaints = bench.finish(run)
     if resumes:
         complaints.append(Complaint("conduct", f"it took {resumes} more runs"))
-    nodes.heal()
     return complaints
 
 

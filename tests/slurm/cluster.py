@@ -111,13 +111,22 @@ class Cluster:
                     found.append(int(folder.name))
         return found
 
-    def heal(self, patience_s=60):
+    def resume_drained(self):
+        """What an administrator does about nodes that Slurm has drained; why it had, one text a node."""
+        listed = ask("sinfo", "--noheader", "--Node", "--states=drain", "--format=%N|%E") or ""
+        drained = dict(line.split("|", 1) for line in listed.splitlines())
+        for node in drained:
+            ask("scontrol", "update", f"NodeName={node}", "State=RESUME")
+        return [f"{node}: {reason}" for node, reason in drained.items()]
+
+    def heal(self, patience_s=180):
         """Whatever was done to it: all nodes idle, no jobs. Raises TimeoutError if that does not come."""
         if not self._responds():
             with contextlib.suppress(subprocess.CalledProcessError):
                 self.start_controller()
         deadline = time.monotonic() + patience_s
         while (jobs := self.jobs()) or jobs is None or any(self.node_state(node) != "idle" for node in self.nodes):
+            self.resume_drained()
             if time.monotonic() > deadline:
                 states = [self.node_state(node) for node in self.nodes]
                 raise TimeoutError(f"the cluster in {self.folder} does not recover: jobs {jobs}, nodes {states}")

@@ -101,6 +101,11 @@ class Bench(campaigns.Bench):
             resumes += 1
         return resumes, complaints + run.conduct(0) + self.judge() + self.left_running()
 
+    def _unfinished_jobs(self):
+        """Those of a node that was lost are COMPLETING until the controller has heard of it again."""
+        jobs = self.cluster.jobs()
+        return "not known: no answer" if jobs is None else [job for job in jobs if job[1] != "COMPLETING"]
+
     def judge(self, campaign=None, repaired=False):
         """As ever; what tasks have printed may stay when something was lost."""
         return [each for each in super().judge(campaign, repaired)
@@ -109,10 +114,9 @@ class Bench(campaigns.Bench):
     def left_running(self, patience_s=20):
         """Complaints about jobs and processes of a campaign that is over."""
         deadline = time.monotonic() + patience_s
-        while self.cluster.jobs() != [] and time.monotonic() < deadline:
+        while (left := self._unfinished_jobs()) and time.monotonic() < deadline:
             time.sleep(0.1)
-        jobs = self.cluster.jobs()
-        complaints = [Complaint("conduct", f"jobs are left: {jobs}")] if jobs != [] else []
+        complaints = [Complaint("conduct", f"jobs are left: {left}")] if left else []
         return complaints + judge.survivors(self.program.folder, patience_s)
 
 

@@ -13,6 +13,7 @@ import random
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 import cluster
@@ -146,13 +147,39 @@ def meet_often(options, name):
             cluster.Cluster(nodes=3, cpus=1, settings=SETTINGS) as nodes:
         bench = Bench(program, CHECKED, SCENES, nodes)
         span_s = undisturbed(bench)
+        administrator = Administrator(nodes, row)
         for cycle in range(options.cycles):
             begin = time.monotonic()
-            complaints = meet(bench, row, FAULTS[name], random.Random(f"{options.seed} {name} {cycle}"), span_s)
+            try:
+                complaints = meet(bench, row, FAULTS[name], random.Random(f"{options.seed} {name} {cycle}"), span_s)
+            except (RuntimeError, TimeoutError) as error:
+                complaints = [Complaint("conduct", str(error))]
             row.blame(complaints, f"cycle {cycle}",
                       f"tests/slurm/faults.py --fault {name} --seed {options.seed} --cycles {cycle + 1}")
             print(f"{name} {cycle}: {time.monotonic() - begin:.0f} s", file=sys.stderr, flush=True)
+        administrator.end()
     return row, span_s
+
+
+class Administrator(threading.Thread):
+    """Slurm drains a node on which it could not start a job, and leaves it so until somebody says otherwise."""
+
+    def __init__(self, nodes, row):
+        super().__init__(daemon=True)
+        self.nodes = nodes
+        self.row = row
+        self.ending = threading.Event()
+        self.start()
+
+    def run(self):
+        while not self.ending.wait(2):
+            for why in self.nodes.resume_drained():
+                self.row.notes["nodes that Slurm had drained were resumed"] += 1
+                print(f"drained {why}", file=sys.stderr, flush=True)
+
+    def end(self):
+        self.ending.set()
+        self.join()
 
 
 def start(bench):
@@ -160,7 +187,7 @@ def start(bench):
     process = bench.program.start(*bench.submit_to_cluster(), fake={"delay_s": FRAME_S})
     if not bench.wait_for(bench.claims, process):
         run = bench.program.end(process, 1)
-        sys.exit(f"no task has begun before the head ended with {run.code}: {run.errors[-1000:]}")
+        raise RuntimeError(f"no task has begun before the head ended with {run.code}: {run.errors[-1000:]}")
     return process
 
 
@@ -192,12 +219,12 @@ def meet(bench, row, fault, rng, span_s):
     run = bench.program.end(process, PATIENCE_S)
     allowed = ENDS_EARLY if fault is not head else (-signal.SIGKILL,)
     resumes, complaints = bench.finish(run, allowed)
-    row.notes["heads ended, resumed"] += bool(resumes)
+    if resumes:
+        row.notes["heads ended, resumed"] += 1
+    if len(set(bench.cluster.arrays()) - before) > 1:  # the first has all frames, others what was lost
+        row.notes["gave frames out again"] += 1
     try:
         bench.cluster.heal()
-        # The first array has all frames; others have what was lost.
-        again = len(set(bench.cluster.arrays()) - before) > 1
-        row.notes["gave frames out again"] += again
     except TimeoutError as error:
         complaints.append(Complaint("conduct", str(error)))
     return complaints

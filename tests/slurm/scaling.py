@@ -245,8 +245,8 @@ def text_of(figures, options):
     for row in on_paper(figures):
         lines.append(f"| {row['frame_s']:g} | {row['frames_of_a_task']} | {row['task_s']:.0f} | {row['frames_per_s']:.0f} | "
                      f"{100 * row['share']:.0f} % | {row['tasks_per_s']:.1f} | {row['head_cores']:.2f} |")
-    lines += ["", f"The head alone can fetch {1 / figures.head_frame_s:,.0f} frames/s with one core, so {MANY_NODES:,} nodes keep it from "
-              f"keeping up when a node makes a frame in less than {MANY_NODES * figures.head_frame_s:.2f} s.", ""]
+    lines += ["", f"With one core the head fetches {1 / figures.head_frame_s:,.0f} frames/s: it keeps up with {MANY_NODES:,} nodes as long as "
+              f"each of them takes more than {MANY_NODES * figures.head_frame_s:.2f} s for a frame.", ""]
     return "\n".join(lines)
 
 
