@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdint>
+#include <vector>
 
 #include "base/portable_math.h"
 #include "image_files/image_module.h"
@@ -46,8 +48,64 @@ Image<std::uint8_t> to_srgb(const Image<float>& linear) {
   return image;
 }
 
-/// Catmull-Rom goes through the pixels, so it leaves a direction alone that keeps its size.
-const char* filter_for(int from, int to) { return to < from ? "mitchell" : "catmull-rom"; }
+/// The old pixels of which a new one holds a part, and how much of the new one they make up.
+struct Cover {
+  int first = 0;
+  std::vector<double> shares;
+};
+
+/// New pixel i is [i · from, (i + 1) · from) in units of 1/to of an old one: whole numbers, so that
+/// the shares are exact.
+std::vector<Cover> covers_of(int from, int to) {
+  std::vector<Cover> covers(static_cast<std::size_t>(to));
+  for (std::int64_t i = 0; i < to; ++i) {
+    Cover& cover = covers[static_cast<std::size_t>(i)];
+    const std::int64_t begin = i * from;
+    const std::int64_t end = begin + from;
+    cover.first = static_cast<int>(begin / to);
+    for (std::int64_t old = cover.first; old * to < end; ++old) {
+      const std::int64_t overlap = std::min(end, (old + 1) * to) - std::max(begin, old * to);
+      cover.shares.push_back(static_cast<double>(overlap) / from);
+    }
+  }
+  return covers;
+}
+
+Image<float> narrowed(const Image<float>& image, int width) {
+  if (width >= image.width) return image;
+  const std::vector<Cover> covers = covers_of(image.width, width);
+  Image<float> out(width, image.height, image.channels);
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const Cover& cover = covers[static_cast<std::size_t>(column)];
+      for (int channel = 0; channel < image.channels; ++channel) {
+        double sum = 0.0;
+        int old = cover.first;
+        for (const double share : cover.shares) sum += share * image.at(row, old++, channel);
+        out.at(row, column, channel) = static_cast<float>(sum);
+      }
+    }
+  }
+  return out;
+}
+
+Image<float> lowered(const Image<float>& image, int height) {
+  if (height >= image.height) return image;
+  const std::vector<Cover> covers = covers_of(image.height, height);
+  Image<float> out(image.width, height, image.channels);
+  for (int row = 0; row < height; ++row) {
+    const Cover& cover = covers[static_cast<std::size_t>(row)];
+    for (int column = 0; column < image.width; ++column) {
+      for (int channel = 0; channel < image.channels; ++channel) {
+        double sum = 0.0;
+        int old = cover.first;
+        for (const double share : cover.shares) sum += share * image.at(old++, column, channel);
+        out.at(row, column, channel) = static_cast<float>(sum);
+      }
+    }
+  }
+  return out;
+}
 
 image_module::FloatPixels pixels_of(Image<float>& image) {
   return {image.width, image.height, image.channels, image.values.data()};
@@ -58,15 +116,16 @@ image_module::FloatPixels pixels_of(Image<float>& image) {
 Result<Image<std::uint8_t>> resampled(const Image<std::uint8_t>& image, int width, int height) {
   assert(image.channels == 3 && image.width > 0 && image.height > 0 && width > 0 && height > 0);
   if (image.width == width && image.height == height) return image;
+  Image<float> linear = lowered(narrowed(to_linear(image), width), height);
+  if (linear.width == width && linear.height == height) return to_srgb(linear);
   const Result<const image_module::Table*> library = image_module_table();
   if (!library) return forward_error(library);
-  Image<float> linear = to_linear(image);
   Image<float> out(width, height, image.channels);
   const image_module::FloatPixels from = pixels_of(linear);
   const image_module::FloatPixels to = pixels_of(out);
+  constexpr const char* kThroughThePixels = "catmull-rom";
   image_module::Fault fault;
-  if (!(*library)->resize(&from, &to, filter_for(image.width, width),
-                          filter_for(image.height, height), &fault)) {
+  if (!(*library)->resize(&from, &to, kThroughThePixels, kThroughThePixels, &fault)) {
     return fail(ErrorKind::kEnvironment, "cannot resize an image: {}", fault.text);
   }
   return to_srgb(out);

@@ -1,5 +1,7 @@
 #include "image_files/resampling.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace seedframe {
@@ -33,6 +35,39 @@ TEST(Resampling, LightIsAveragedNotItsEncoding) {
   const auto out = resampled(stripes, 16, 16);
   ASSERT_TRUE(out);
   EXPECT_NEAR(out->at(8, 8), 188, 2);  // half the light in sRGB, where half the number is 128
+}
+
+TEST(Resampling, ASmallerPixelIsTheMeanOfTheAreaThatItCovers) {
+  // Five pixels to two: the first covers two and a half of them.
+  Image<std::uint8_t> five = filled(5, 1, 0);
+  const auto light_of = [](double light) {
+    return static_cast<int>(std::lround(255 * (1.055 * std::pow(light, 1 / 2.4) - 0.055)));
+  };
+  for (int lit = 0; lit < 5; ++lit) {
+    five = filled(5, 1, 0);
+    for (int c = 0; c < 3; ++c) five.at(0, lit, c) = 255;
+    const auto out = resampled(five, 2, 1);
+    ASSERT_TRUE(out);
+    const double left = lit < 2 ? 1 / 2.5 : lit == 2 ? 0.5 / 2.5 : 0.0;
+    const double right = lit > 2 ? 1 / 2.5 : lit == 2 ? 0.5 / 2.5 : 0.0;
+    EXPECT_EQ(out->at(0, 0), left > 0 ? light_of(left) : 0) << lit;
+    EXPECT_EQ(out->at(0, 1), right > 0 ? light_of(right) : 0) << lit;
+  }
+}
+
+TEST(Resampling, NothingRingsBesideAnEdge) {
+  Image<std::uint8_t> edge = filled(100, 60, 60);
+  for (int row = 0; row < 60; ++row) {
+    for (int column = 43; column < 100; ++column) {
+      for (int c = 0; c < 3; ++c) edge.at(row, column, c) = 180;
+    }
+  }
+  const auto out = resampled(edge, 32, 32);
+  ASSERT_TRUE(out);
+  for (const std::uint8_t value : out->values) {
+    EXPECT_GE(value, 60);
+    EXPECT_LE(value, 180);
+  }
 }
 
 TEST(Resampling, ADirectionThatKeepsItsSizeIsLeftAlone) {
