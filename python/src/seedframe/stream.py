@@ -1,0 +1,398 @@
+"""Frames on demand: values of a config's variables in, labels and arrays out, from a program that stays."""
+
+from __future__ import annotations
+
+import collections
+import os
+import weakref
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, Callable, Literal, Union, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from ._channel import Channel, FrameFuture
+from ._memory import Shelf
+from .errors import Error
+from .labels import Labels
+from .program import StrPath, set_arguments
+from .views import FrameViews
+
+
+@dataclass(frozen=True)
+class Request:
+    """One frame to be made. What is None is as the stream has it."""
+
+    values: Mapping[str, Any] | None = None  #: of variables by name; what is left out is drawn
+    scene: int | None = None  #: whose draws are made for what is left out
+    fidelity: str | None = None  #: "labels", "preview" or "render"
+    samples: int | None = None  #: per pixel, of "render" alone
+    crop: tuple[int, int, int, int] | None = None  #: x, y, width, height: only these pixels are made, of "render" alone
+    want: Sequence[str] | None = None  #: of "labels", "image", "ids", "depth"
+    deadline_s: float | None = None  #: seconds after which it is an error
+
+
+Values = Union[Mapping[str, Any], Request]
+
+
+class StreamFrame(FrameViews):
+    """A frame that was made on demand. Its arrays are memory that the program filled, and live as long as they are used.
+
+    What the frame was not asked for (``want``) raises Error.
+    """
+
+    def __init__(self, answer: Mapping[str, Any], arrays: Mapping[str, npt.NDArray[Any]]) -> None:
+        self._answer = answer
+        self._arrays = arrays
+
+    def __repr__(self) -> str:
+        return f"StreamFrame({self.frame_id[:12]}, {self.fidelity}, {', '.join(self._arrays) or 'no arrays'})"
+
+    @property
+    def frame_id(self) -> str:
+        """SHA-256 of what was made, hexadecimal: that of `submit` for the same values."""
+        return str(self._answer["frame_id"])
+
+    @property
+    def fidelity(self) -> str:
+        """What made it: "labels", "preview" or "render"."""
+        return str(self._answer["fidelity"])
+
+    @property
+    def width(self) -> int:
+        """Pixels."""
+        return int(self._answer["width"])
+
+    @property
+    def height(self) -> int:
+        """Pixels."""
+        return int(self._answer["height"])
+
+    @property
+    def pixel_hashes(self) -> dict[str, str]:
+        """By pass, as a campaign's manifest has them."""
+        return dict(self._answer["pixel_hashes"])
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """``waited`` before it was begun, ``made`` from then on, ``worker``: of that in Blender."""
+        return dict(self._answer["seconds"])
+
+    @cached_property
+    def labels(self) -> Labels:
+        """What is known of its instances."""
+        if "labels" not in self._answer:
+            raise self._not_wanted("labels")
+        return Labels(self._answer["labels"])
+
+    @property
+    def image(self) -> npt.NDArray[np.uint8]:
+        """The picture: uint8, rows × columns × 3, sRGB. Not at fidelity "labels"."""
+        return self._array("image")
+
+    @property
+    def ids(self) -> npt.NDArray[np.uint16]:
+        """Which instance each pixel belongs to: uint16, rows × columns, 0 is background."""
+        return self._array("ids")
+
+    @property
+    def depth(self) -> npt.NDArray[np.float32]:
+        """Metres along the viewing axis: float32, rows × columns; 1e10 is background."""
+        return self._array("depth")
+
+    @cached_property
+    def semantic(self) -> npt.NDArray[np.uint8]:
+        """The category of each pixel, from `ids` and `labels`: uint8, rows × columns, 0 is background and distractors."""
+        return self._semantic_of_ids()
+
+    def _array(self, name: str) -> npt.NDArray[Any]:
+        if name not in self._arrays:
+            raise self._not_wanted(name)
+        return self._arrays[name]
+
+    def _not_wanted(self, name: str) -> Error:
+        return Error(f"this frame was not asked for its {name}: name '{name}' in want")
+
+
+class Batch:
+    """Some frames in a row, whose arrays are also one array each: the frames' own memory, nothing is copied."""
+
+    def __init__(self, frames: list[StreamFrame], arrays: Mapping[str, npt.NDArray[Any]]) -> None:
+        self.frames = frames
+        self._arrays = arrays
+
+    def __len__(self) -> int:
+        return len(self.frames)
+
+    @property
+    def labels(self) -> list[Labels]:
+        """Of each frame."""
+        return [frame.labels for frame in self.frames]
+
+    @property
+    def image(self) -> npt.NDArray[np.uint8]:
+        """uint8, frames × rows × columns × 3, sRGB; contiguous within a frame."""
+        return self._array("image")
+
+    @property
+    def ids(self) -> npt.NDArray[np.uint16]:
+        """uint16, frames × rows × columns, 0 is background; contiguous within a frame."""
+        return self._array("ids")
+
+    @property
+    def depth(self) -> npt.NDArray[np.float32]:
+        """float32, frames × rows × columns, metres; contiguous within a frame."""
+        return self._array("depth")
+
+    def _array(self, name: str) -> npt.NDArray[Any]:
+        if name not in self._arrays:
+            raise Error(f"these frames were not asked for their {name}: name '{name}' in want")
+        return self._arrays[name]
+
+
+class Stream:
+    """A program that makes frames for values of a config's variables, and stays.
+
+    Use it in a ``with`` statement: at its end what is open is made, after an exception it is dropped. The program goes with
+    this process, however it ends; Ctrl-C is for this process alone.
+
+    Methods may be called from several threads. A process that is forked needs a stream of its own.
+
+    Args:
+        config: the campaign's config, a file.
+        fidelity: of requests that do not say. "labels": exact ids, depth and labels, no picture, milliseconds. "preview": and
+            a shaded picture, for looking. "render": by Blender, as a campaign.
+        workers: threads or Blender processes; chosen if it is None.
+        set: values of the config by their path, such as ``{"render.width": 128}``.
+        want: of "labels", "image", "ids", "depth"; ``["labels"]``, and "image" where there is a picture, if it is None.
+        blender: which one: a path, a name in PATH, or ``python:VENV``.
+        options: further ones of ``seedframe stream``.
+
+    Raises:
+        Error: ``input``: the config is wrong. ``environment``: there is no program.
+
+    """
+
+    def __init__(
+        self,
+        config: StrPath,
+        fidelity: str = "labels",
+        workers: int | None = None,
+        *,
+        set: Mapping[str, Any] | None = None,
+        want: Sequence[str] | None = None,
+        blender: str | None = None,
+        options: Sequence[str] = (),
+    ) -> None:
+        arguments = [str(config), "--fidelity", fidelity, *set_arguments(set)]
+        for name, value in (("--workers", workers), ("--blender", blender)):
+            if value is not None:
+                arguments += [name, str(value)]
+        self._fidelity = fidelity
+        self._want = want
+        self._channel = Channel([*arguments, *options])
+        self._ahead = min(self._channel.most_open, 4 * (workers or os.cpu_count() or 1))
+        self._finalizer = weakref.finalize(self, self._channel.close, cancel=True)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a Stream is of one process: open one where it is needed")
+
+    def __enter__(self) -> Stream:
+        return self
+
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
+        self.close(cancel=kind is not None)
+
+    def close(self, cancel: bool = False) -> None:
+        """Ends the program and waits for it. Closing again does nothing.
+
+        Args:
+            cancel: drop what has not been begun, instead of making it first.
+
+        """
+        self._finalizer.detach()
+        self._channel.close(cancel)
+
+    @property
+    def variables(self) -> dict[str, dict[str, Any]]:
+        """What values can be given for: by name ``type`` ("number", "vector" or "name"), ``unit`` and ``per_copy``."""
+        return dict(self._channel.ready["variables"])
+
+    @property
+    def ready(self) -> dict[str, Any]:
+        """What the program said first: ``name``, ``seed``, ``width``, ``height``, ``categories``, ``process``, …"""
+        return dict(self._channel.ready)
+
+    @property
+    def most_open(self) -> int:
+        """Requests that can be open at once; `submit` waits when there are as many."""
+        return self._channel.most_open
+
+    def submit(
+        self,
+        values: Values | None = None,
+        *,
+        scene: int | None = None,
+        fidelity: str | None = None,
+        samples: int | None = None,
+        crop: tuple[int, int, int, int] | None = None,
+        want: Sequence[str] | None = None,
+        deadline_s: float | None = None,
+    ) -> Future[StreamFrame]:
+        """Asks for a frame. Waits only while `most_open` are open, so do not call it in what a future calls when it is done.
+
+        Args:
+            values: of variables by name: numbers in the variable's unit, lists, texts; NumPy's are fine. Or a Request.
+            scene, fidelity, samples, crop, want, deadline_s: as in Request, and in place of what it says.
+
+        Returns:
+            Its future, for ``concurrent.futures.as_completed``, ``wait`` and the like. It gives the frame or raises Error:
+            ``input``: a value is wrong, the frame came too late, or it was cancelled; ``render``: no worker could make it;
+            ``environment``: the program has ended. A wrong request does not end the stream.
+
+        Raises:
+            Error: the stream is closed or its program has ended.
+
+        """
+        asked: dict[str, Any] = {
+            "scene": scene,
+            "fidelity": fidelity,
+            "samples": samples,
+            "crop": crop,
+            "want": want,
+            "deadline_s": deadline_s,
+        }
+        request = values if isinstance(values, Request) else Request(values)
+        return self._ask(replace(request, **{name: value for name, value in asked.items() if value is not None}))
+
+    def _ask(
+        self,
+        request: Request,
+        place: tuple[Shelf, int] | None = None,
+        answered: Callable[[], None] | None = None,
+    ) -> FrameFuture[StreamFrame]:
+        message: dict[str, Any] = {"values": request.values if request.values is not None else {}}
+        for name in ("scene", "fidelity", "samples", "deadline_s"):
+            value = getattr(request, name)
+            if value is not None:
+                message[name] = value
+        if request.crop is not None:
+            message["crop"] = list(request.crop)
+        want = request.want if request.want is not None else self._want
+        if want is None:
+            want = ["labels"] if (request.fidelity or self._fidelity) == "labels" else ["labels", "image"]
+        message["want"] = [want] if isinstance(want, str) else list(want)
+        return self._channel.ask(message, StreamFrame, place, answered)
+
+    @overload
+    def render(
+        self,
+        requests: Iterable[Values],
+        *,
+        first_scene: int = 0,
+        ahead: int | None = None,
+        return_errors: Literal[False] = False,
+    ) -> Iterator[StreamFrame]: ...
+    @overload
+    def render(
+        self,
+        requests: Iterable[Values],
+        *,
+        first_scene: int = 0,
+        ahead: int | None = None,
+        return_errors: Literal[True],
+    ) -> Iterator[StreamFrame | Error]: ...
+    def render(
+        self,
+        requests: Iterable[Values],
+        *,
+        first_scene: int = 0,
+        ahead: int | None = None,
+        return_errors: bool = False,
+    ) -> Iterator[StreamFrame | Error]:
+        """Frames in the order of what they are asked for by; several are made at once.
+
+        Request k is made with the draws of scene `first_scene` + k where it names none: the frames are those of a campaign
+        whose ``graphs`` are these values, line by line.
+
+        Args:
+            requests: values of variables, or Requests; read as frames are taken, at most `ahead` before them.
+            first_scene: of the first one.
+            ahead: how many are asked for before they are taken; some for each worker if it is None.
+            return_errors: give the Error in the place of a frame that could not be made, instead of raising it.
+
+        Raises:
+            Error: when a frame could not be made; what was asked for after it is cancelled.
+
+        """
+        for future in self._in_order(requests, first_scene, ahead, None):
+            try:
+                yield future.result()
+            except Error as error:
+                if not return_errors:
+                    raise
+                yield error
+
+    def render_batches(
+        self,
+        requests: Iterable[Values],
+        size: int,
+        *,
+        first_scene: int = 0,
+        ahead: int | None = None,
+        drop_last: bool = False,
+    ) -> Iterator[Batch]:
+        """Frames in batches whose arrays are stacked in memory, without a copy.
+
+        Args:
+            requests, first_scene, ahead: as of `render`.
+            size: frames of a batch. The last one may have fewer.
+            drop_last: leave that out.
+
+        Raises:
+            Error: when a frame could not be made, or those of a batch have different arrays.
+
+        """
+        if size < 1:
+            raise ValueError(f"size is {size}, and a batch has at least one frame")
+        shelves: collections.deque[Shelf] = collections.deque()
+
+        def place(index: int) -> tuple[Shelf, int]:
+            if index % size == 0:
+                shelves.append(Shelf(size))
+            return shelves[-1], index % size
+
+        frames: list[StreamFrame] = []
+        for future in self._in_order(requests, first_scene, ahead, place):
+            frames.append(future.result())
+            if len(frames) == size:
+                yield Batch(frames, shelves.popleft().arrays(size))
+                frames = []
+        if frames and not drop_last:
+            yield Batch(frames, shelves.popleft().arrays(len(frames)))
+
+    def _in_order(
+        self,
+        requests: Iterable[Values],
+        first_scene: int,
+        ahead: int | None,
+        place: Callable[[int], tuple[Shelf, int]] | None,
+    ) -> Iterator[FrameFuture[StreamFrame]]:
+        most = min(ahead or self._ahead, self.most_open)
+        window: collections.deque[FrameFuture[StreamFrame]] = collections.deque()
+        try:
+            for index, each in enumerate(requests):
+                request = each if isinstance(each, Request) else Request(each)
+                if request.scene is None:
+                    request = replace(request, scene=first_scene + index)
+                window.append(self._ask(request, place(index) if place else None))
+                if len(window) >= most:
+                    yield window.popleft()
+            while window:
+                yield window.popleft()
+        finally:
+            for future in window:
+                future.cancel()
