@@ -16,46 +16,16 @@ import subprocess
 import threading
 import weakref
 from collections.abc import Mapping
-from concurrent.futures import Future
-from typing import Any, Callable, Generic, TypeVar
-
-import numpy as np
+from typing import Any, Callable
 
 from ._memory import Layout, Shelf, map_file
+from ._open_request import FrameFuture, Make, OpenRequest, T, plain_values, settle
 from .errors import Error
 from .program import error_of, find_program
 
 PROTOCOL = 1
 _LOOK_AFTER_MS = 1000  # whether the program still runs, should anybody else hold its pipes open
 _END_S = 10.0  # that the program may take to end when it is asked to
-
-T = TypeVar("T")
-Make = Callable[[Mapping[str, Any], Mapping[str, Any]], T]  # of an answer and its arrays
-
-
-class FrameFuture(Future[T]):
-    """A frame that was asked for. Cancelling tells the program."""
-
-    def __init__(self, cancel: Callable[[], None]) -> None:
-        super().__init__()
-        self._tell = cancel
-
-    def cancel(self) -> bool:
-        """As that of any Future; a frame that is being rendered is not waited for."""
-        if not super().cancel():
-            return False
-        self._tell()
-        return True
-
-
-class _Open(Generic[T]):
-    """A request that is not answered."""
-
-    def __init__(self, future: FrameFuture[T], make: Make[T], place: tuple[Shelf, int] | None, answered: Any) -> None:
-        self.future = future
-        self.make = make
-        self.place = place
-        self.answered: Callable[[], None] | None = answered
 
 
 _channels: weakref.WeakSet[Channel] = weakref.WeakSet()
@@ -93,7 +63,7 @@ class Channel:
         os.set_blocking(self._waker, False)
         self._owner = os.getpid()
         self._room = threading.Condition()  # guards _open, _next, _closing, _ended
-        self._open: dict[int, _Open[Any]] = {}
+        self._open: dict[int, OpenRequest[Any]] = {}
         self._next = 0
         self._closing = False
         self._ended: Error | None = None
@@ -150,12 +120,12 @@ class Channel:
             self._next += 1
             future: FrameFuture[T] = FrameFuture(lambda: self._cancel(number))
             try:
-                line = json.dumps({"id": number, **request}, default=_plain, allow_nan=False)
+                line = json.dumps({"id": number, **request}, default=plain_values, allow_nan=False)
             except (TypeError, ValueError) as why:
                 future.set_exception(Error(f"values that JSON cannot say: {why}. Numbers are finite, names are text"))
                 line = ""
             else:
-                self._open[number] = _Open(future, make, place, answered)
+                self._open[number] = OpenRequest(future, make, place, answered)
         if line:
             self._send(line)
         elif answered is not None:
@@ -334,7 +304,7 @@ class Channel:
         with self._room:
             del self._open[number]
             self._room.notify()
-        _settle(entry, result, error)
+        settle(entry, result, error)
 
     def _end(self, trouble: Error | None) -> None:
         """The program has ended, or is not understood: all that is open fails."""
@@ -363,7 +333,7 @@ class Channel:
         with self._writing:
             self._close_pipes()
         for entry in entries:
-            _settle(entry, None, self._ended)
+            settle(entry, None, self._ended)
         self._has_begun.set()
 
     def _close_pipes(self) -> None:
@@ -391,29 +361,9 @@ def _forget_all() -> None:
 os.register_at_fork(after_in_child=_forget_all)
 
 
-def _settle(entry: _Open[Any], result: Any, error: BaseException | None) -> None:
-    if entry.answered is not None:
-        entry.answered()
-    if not entry.future.set_running_or_notify_cancel():
-        return
-    if error is not None:
-        entry.future.set_exception(error)
-    else:
-        entry.future.set_result(result)
-
-
 def _read(descriptor: int) -> bytes | None:
     """What is there; empty at the end; None: nothing now."""
     try:
         return os.read(descriptor, 1 << 20)
     except BlockingIOError:
         return None
-
-
-def _plain(value: Any) -> Any:
-    """NumPy's numbers and arrays as JSON has them."""
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    if isinstance(value, np.generic):
-        return value.item()
-    raise TypeError(f"{value!r} is a {type(value).__name__}")

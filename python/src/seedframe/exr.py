@@ -37,7 +37,7 @@ def decode_exr(data: bytes, what: str = "an EXR file") -> dict[str, npt.NDArray[
     """
     try:
         return _decode(data, what)
-    except (struct.error, zlib.error, ValueError, IndexError, UnicodeDecodeError) as why:
+    except (struct.error, zlib.error, ValueError, IndexError, OverflowError) as why:
         raise Error(
             f"{what} is not the whole EXR file that was written ({why}); render the frame again", "corrupt"
         ) from why
@@ -124,9 +124,10 @@ def _unpacked(packed: bytes, size: int, compression: int) -> npt.NDArray[np.uint
         if len(packed) != size:
             raise ValueError("a block is too short")
         return np.frombuffer(packed, np.uint8)
-    raw = zlib.decompressobj().decompress(packed, size)
-    if len(raw) != size:
-        raise ValueError("a block is too short")
+    inflater = zlib.decompressobj()
+    raw = inflater.decompress(packed, size + 1)
+    if len(raw) != size or not inflater.eof:
+        raise ValueError("a block is too short, or too long")
     # Differences, biased by 128; then the first half of the bytes are those at even places.
     steps = np.frombuffer(raw, np.uint8).copy()
     steps[1:] -= 128

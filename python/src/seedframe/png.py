@@ -38,11 +38,11 @@ def decode_png(data: bytes, what: str = "a PNG file") -> npt.NDArray[Any]:
         raise _damaged(what, "it is too short for the size that it states")
     try:
         inflater = zlib.decompressobj()
-        raw = inflater.decompress(packed, size)
+        raw = inflater.decompress(packed, size + 1)
     except zlib.error as why:
         raise _damaged(what, str(why)) from why
-    if len(raw) != size:
-        raise _damaged(what, f"it has {len(raw)} of {size} bytes of pixels")
+    if len(raw) != size or not inflater.eof:
+        raise _damaged(what, f"its pixels are not {size} bytes")
     rows = np.frombuffer(raw, np.uint8).reshape(height, row_bytes + 1)
     filters = rows[:, 0]
     if filters.max() > _PAETH:

@@ -14,8 +14,9 @@ from typing import Any, Callable, Literal, Union, overload
 import numpy as np
 import numpy.typing as npt
 
-from ._channel import Channel, FrameFuture
+from ._channel import Channel
 from ._memory import Shelf
+from ._open_request import FrameFuture
 from .errors import Error
 from .labels import Labels
 from .program import StrPath, set_arguments
