@@ -265,6 +265,27 @@ void add_export_verb(CLI::App& app, const OnSelected& on_selected) {
       ->capture_default_str();
   verb->add_option("--patch-size", options.patch_size, "patches: pixels of a side; 0: as they are")
       ->capture_default_str();
+  verb->add_option("--per-class", options.per_class,
+                   "patches: exactly so many of every class, in all splits together")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100'000'000));
+  verb->add_option("--classes", options.patch_classes,
+                   "patches: only of these classes (default: of all)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("CLASS,…");
+  verb->add_option("--min-side", options.min_side,
+                   "patches: leave out those of which a side is shorter, in pixels of the image")
+      ->capture_default_str();
+  verb->add_option("--windows", options.windows,
+                   "patches: of these classes windows that hold nothing but the class and those "
+                   "named before it, such as field,line")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("CLASS,…");
+  verb->add_option("--windows-per-frame", options.windows_per_frame,
+                   "patches: windows of each such class in a frame")
+      ->capture_default_str();
   verb->add_option("--shard-size", options.shard_size, "webdataset: samples in a tar")
       ->capture_default_str();
   verb->add_option("--workers", options.workers, "threads (default: one for each core)")

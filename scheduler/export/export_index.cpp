@@ -8,7 +8,7 @@ namespace seedframe {
 namespace {
 
 // Also of the bytes of all formats: nothing is taken over from an export of another version.
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 constexpr std::size_t kHashDigits = 32;
 
 }  // namespace

@@ -17,6 +17,19 @@ Status check_export_options(const ExportOptions& options) {
     return fail(ErrorKind::kInput, "--patch-size must be 0 to {} pixels, found {}", kLargestPatch,
                 options.patch_size);
   }
+  if (options.per_class < 0) {
+    return fail(ErrorKind::kInput, "--per-class must be 1 or more patches, found {}",
+                options.per_class);
+  }
+  if (options.min_side < 1 || options.min_side > kLargestPatch) {
+    return fail(ErrorKind::kInput, "--min-side must be 1 to {} pixels, found {}", kLargestPatch,
+                options.min_side);
+  }
+  constexpr int kMostWindows = 100;
+  if (options.windows_per_frame < 1 || options.windows_per_frame > kMostWindows) {
+    return fail(ErrorKind::kInput, "--windows-per-frame must be 1 to {}, found {}", kMostWindows,
+                options.windows_per_frame);
+  }
   constexpr int kLargestShard = 1'000'000;
   if (options.shard_size < 1 || options.shard_size > kLargestShard) {
     return fail(ErrorKind::kInput, "--shard-size must be 1 to {} samples, found {}", kLargestShard,
@@ -50,6 +63,11 @@ Json to_json(const ExportOptions& options) {
            options.polygon_vertices == PolygonVertices::kEdges ? "edges" : "centres"},
           {"polygon", options.polygon_detail == PolygonDetail::kExact ? "exact" : "simplified"},
           {"patch_size", options.patch_size},
+          {"per_class", options.per_class},
+          {"min_side", options.min_side},
+          {"patch_classes", options.patch_classes},
+          {"windows", options.windows},
+          {"windows_per_frame", options.windows_per_frame},
           {"shard_size", options.shard_size}};
 }
 
@@ -70,6 +88,11 @@ Result<ExportOptions> export_options_from_json(const Json& json, const std::stri
       options.polygon_detail = PolygonDetail::kSimplified;
     }
     json.at("patch_size").get_to(options.patch_size);
+    json.at("per_class").get_to(options.per_class);
+    json.at("min_side").get_to(options.min_side);
+    json.at("patch_classes").get_to(options.patch_classes);
+    json.at("windows").get_to(options.windows);
+    json.at("windows_per_frame").get_to(options.windows_per_frame);
     json.at("shard_size").get_to(options.shard_size);
   } catch (const Json::exception& error) {
     return fail(ErrorKind::kCorrupt, "{}: options: {}", what, error.what());

@@ -36,8 +36,15 @@ struct ExportOptions {
   std::vector<SplitShare> splits = {{"train", 1.0}};  ///< the first is train
   PolygonVertices polygon_vertices = PolygonVertices::kEdges;
   PolygonDetail polygon_detail = PolygonDetail::kExact;
-  int patch_size = 32;    ///< pixels of a side; 0: as they are
-  int shard_size = 1000;  ///< samples in a tar
+  int patch_size = 32;  ///< pixels of a side; 0: as they are
+  int per_class = 0;    ///< patches of each class, in all splits; 0: all there are
+  int min_side = 1;     ///< patches of which a side is shorter are left out
+  std::vector<std::string> patch_classes = {};  ///< that patches are made of; none: of all
+  /// Classes of which patches are windows onto a part, such as a field. Such a window holds nothing
+  /// but its own class and those named before it.
+  std::vector<std::string> windows = {};
+  int windows_per_frame = 1;  ///< of each of them, where there is room
+  int shard_size = 1000;      ///< samples in a tar
   // What follows does not change a byte of the export.
   bool link_images = false;  ///< hard links where the file system allows, else copies
   int workers = 1;           ///< threads

@@ -257,8 +257,9 @@ class Verification {
 
 Result<VerifySummary> verify_export(const Dataset& dataset, const FormatList& formats,
                                     const fs::path& folder, int workers) {
-  const auto marker = read_marker(folder);
+  auto marker = read_marker(folder);
   if (!marker) return forward_error(marker);
+  marker->options.workers = workers;
   const auto entry = find_format(formats, marker->format);
   if (!entry) return forward_error(entry);
   const auto format = (*entry)->make(dataset, marker->options);

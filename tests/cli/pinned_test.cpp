@@ -75,7 +75,7 @@ camera: {target: [0, 0, 0], distance_m: {uniform: [0.2, 0.5]}}
   const Outcome exported = run(arguments);
   ASSERT_EQ(exported.exit_code, 0) << exported.errors;
   EXPECT_EQ(hash_of("c/exports"),
-            "9cd1b2fcb8d7ce6e0339e957acc46059b061d76847f43cf3219dd5ed1529b03b");
+            "d082cb092cdddbc352287ef6ac3acf85cd2ab06bd5a3e1579d260a51ff960f8d");
 }
 
 }  // namespace
