@@ -135,6 +135,7 @@ struct ScatterConfig {
   std::array<NumberSource, 2> x;  ///< least and most, metres
   std::array<NumberSource, 2> y;
   NumberSource gap_m;  ///< least distance between the bounding circles of two footprints
+  bool pile = false;   ///< anywhere, and dropped onto what is there
   Place place;
 };
 

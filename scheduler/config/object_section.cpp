@@ -53,6 +53,11 @@ ScatterConfig read_scatter(const ConfigNode& node, Diagnostics& errors) {
   range("x", scatter.x);
   range("y", scatter.y);
   scatter.gap_m = section.number("gap_m", 0.0);
+  scatter.pile = section.flag("pile", false);
+  if (scatter.pile && node.find("gap_m")) {
+    errors.add(node.find("gap_m")->place(),
+               "what is piled keeps no gap_m from the others: remove gap_m or pile");
+  }
   section.refuse_other_keys();
   return scatter;
 }
@@ -208,6 +213,13 @@ ObjectConfig read_object(const std::string& name, const ConfigNode& node, Diagno
   }
   if (object.scatter && object.grid) {
     errors.add(node.find("grid")->place(), "scatter and grid exclude each other");
+  }
+  if (object.scatter && object.scatter->pile && (!object.asset || !object.objects.empty())) {
+    errors.add(object.scatter->place, "pile is for an asset without objects of its own");
+  }
+  if (object.scatter && object.scatter->pile && !object.rest_on_ground && !object.rest_stable) {
+    errors.add(object.scatter->place,
+               "what is piled falls until it rests: add rest_on_ground: true or rest: stable");
   }
   section.refuse_other_keys();
   return object;

@@ -229,6 +229,8 @@ class Compiler {
         section.number(anywhere, "scatter.x"),
         section.number(anywhere, "scatter.y"),
         section.number(config.gap_m, "scatter.gap_m"),
+        config.pile,
+        section.number(anywhere, "scatter.pile"),
         section.level(),
         config.place};
   }

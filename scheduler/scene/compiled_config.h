@@ -52,6 +52,8 @@ struct CompiledScatter {
   std::array<NumberDraw, 2> x, y;
   NumberDraw x_draw, y_draw;  ///< uniform over [0, 1]
   NumberDraw gap_m;
+  bool pile = false;
+  NumberDraw falls;             ///< uniform over [0, 1]: the less, the earlier a piled copy falls
   Level level = Level::kScene;  ///< of the draws
   Place place;
 };

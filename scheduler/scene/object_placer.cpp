@@ -9,6 +9,7 @@
 
 #include "base/nearest_name.h"
 #include "base/portable_math.h"
+#include "rays/heap.h"
 #include "scene/grid.h"
 #include "scene/level_choice.h"
 
@@ -40,7 +41,7 @@ void scatter(const CompiledScatter& scatter, double radius,
   bool found = false;
   while (!found && context.placement_attempt - first < kPlacementAttempts) {
     draw();
-    found = is_clear({position.x(), position.y(), radius}, footprints, gap);
+    found = scatter.pile || is_clear({position.x(), position.y(), radius}, footprints, gap);
     if (!found) ++context.placement_attempt;
   }
   context.record = record;
@@ -175,6 +176,24 @@ void ObjectPlacer::place_all(const CompiledConfig& config, const MaterialPicker&
     if (context.error) break;
   }
   context.copy = kNoIndex;
+  if (!pass.falling.empty() && !context.error) pile(pass);
+}
+
+void ObjectPlacer::pile(Pass& pass) {
+  static const Mesh nothing;  // for the ground, which everything rests on already
+  std::vector<Heaped> heap;
+  for (const PlacedInstance& each : pass.draft.placed) {
+    heap.push_back({each.asset ? &each.asset->mesh : &nothing, each.world_from_object, {}});
+  }
+  for (const Falling& each : pass.falling) heap[each.placed].falls = each.order;
+  const std::vector<double> raised = heaped_up(heap);
+  for (const Falling& each : pass.falling) {
+    PlacedInstance& instance = pass.draft.placed[each.placed];
+    instance.world_from_object.translation().z() += raised[each.placed];
+    instance.centre.z() += raised[each.placed];
+    if (!each.is_first) continue;
+    pass.draft.sections[instance.section].world_from_first.translation().z() += raised[each.placed];
+  }
 }
 
 void ObjectPlacer::place(const CompiledObject& object, Parent& parent, Pass& pass) const {
@@ -237,6 +256,10 @@ void ObjectPlacer::place_copy(const CompiledObject& object, const Eigen::Vector3
   FrameDraft::Section& section = pass.draft.sections[object.section];
   if (section.copies++ == 0) {
     section.world_from_first = parent.world_from_parent * parent_from_unscaled;
+  }
+  if (object.scatter && object.scatter->pile) {
+    const double order = object.scatter->falls.evaluate(context);
+    pass.falling.push_back({pass.draft.placed.size(), order, section.copies == 1});
   }
   std::optional<DrawnMaterial> material;
   if (object.material_of_parent) material = parent.material;

@@ -42,16 +42,24 @@ class ObjectPlacer {
     std::optional<DrawnMaterial> material;  ///< for what takes its parent's
     std::vector<Footprint> footprints;
   };
+  struct Falling {  // a copy that is piled
+    std::size_t placed = 0;
+    double order = 0.0;     ///< the less, the earlier
+    bool is_first = false;  ///< of its section
+  };
   struct Pass {  // what one frame's placing carries around
     const BuiltInSlots& built_in;
     const MaterialPicker& materials;
     FrameDraft& draft;
     EvaluationContext& context;
+    std::vector<Falling> falling = {};
   };
 
   void place(const CompiledObject& object, Parent& parent, Pass& pass) const;
   void place_copy(const CompiledObject& object, const Eigen::Vector3d& offset,
                   const std::string& name, Parent& parent, Pass& pass) const;
+  /// Raises what is piled until it lies on what is there already.
+  static void pile(Pass& pass);
   struct Placement {
     const std::string& name;
     const Affine& world_from_object;
