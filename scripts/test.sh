@@ -7,6 +7,7 @@
 #   scripts/test.sh unit       unit tests of the release build only, exports read by small programs from PyPI, pages in a browser
 #   scripts/test.sh clients    exports read and trained on by torchvision, torchmetrics, webdataset and ultralytics, in an
 #                              environment of 6 GB that is made for it
+#   scripts/test.sh python     the Python package: mypy, ruff, its tests with PyTorch, installed as a user would
 #   scripts/test.sh slurm      campaigns on a Slurm cluster of three nodes on this machine
 #   scripts/test.sh versions   what depends on Blender's version, with 4.2 and 5.0, and with 5.2 where there is a Python 3.13
 set -u
@@ -88,6 +89,16 @@ browse_pages() { # by tests/browser: in Debian's Chromium, driven by packages of
   rm -f "$log"
 }
 
+check_python() {
+  echo "== the Python package"
+  if scripts/python_checks.sh install; then
+    step "Python package (mypy, ruff, installed, with PyTorch)" scripts/python_checks.sh
+  else
+    skipped=$((skipped + 1))
+    echo "SKIPPED: checks of the Python package, whose tools could not be installed (why stands above)"
+  fi
+}
+
 run_on_cluster() {
   echo "== tests on a Slurm cluster"
   if scripts/slurm-dev.sh install; then
@@ -119,6 +130,8 @@ if [ "$what" = versions ]; then
   for version in 4.2 5.0 5.2; do run_version "$version"; done
 elif [ "$what" = slurm ]; then
   run_on_cluster
+elif [ "$what" = python ]; then
+  check_python
 elif [ "$what" = clients ]; then
   read_exports clients client_wheels.sh "pycocotools and webdataset"
   read_exports trainers trainer_wheels.sh "torchvision, torchmetrics, webdataset and ultralytics"
@@ -133,6 +146,7 @@ if [ "$what" = all ]; then
     'git ls-files "*.cpp" "*.h" | xargs clang-format --dry-run --Werror'
   step "module edges and sizes" scripts/check_modules.py
   step "lint (clang-tidy)" scripts/lint.sh
+  check_python
   echo "== tests with the real Blender"
   run_tests release blender "$(nproc)"
   run_version 4.5
