@@ -111,7 +111,15 @@ constexpr StudyParameter kStudy[] = {{"n", "n_draw", 1, 400},
                                      {"n_lights", "n_lights_draw", 1, 20},
                                      {"d_min", "d_min", 0.1, 5},
                                      {"d_max", "d_max_draw", 0.1, 5},
-                                     {"scale", "scale", 0.2, 3}};
+                                     {"scale", "scale", 0.2, 3},
+                                     {"area", "area", 0.01, 10},
+                                     {"light_power", "light_power", 0, 1000},
+                                     {"light_temperature", "light_temperature", 1500, 15000},
+                                     {"light_distance", "light_distance", 0, 5},
+                                     {"light_height", "light_height", 0.2, 5},
+                                     {"background", "background", 0, 5},
+                                     {"elevation", "elevation", 5, 90},
+                                     {"fov", "fov", 10, 120}};
 
 TEST(PartsStudy, EveryNormalParameterHasTheMeanAndTheDeviationThatAreSet) {
   constexpr int kStudyScenes = 300;
