@@ -24,7 +24,7 @@ sheet() {
 # masks NAME COLUMNS WIDTH FRAMES: the classes in these frames of a campaign that sheet() has made.
 masks() {
   [ -d "$work/$1" ] || return 0
-  "$seedframe" show "$work/$1" "$4" --sheet "$2" --tile-width "$3" --layers semantic --plain \
+  "$seedframe" show "$work/$1" "$4" --sheet "$2" --tile-width "$3" --layers semantic \
     -o "results/scenes/$1_masks.jpg" --overwrite
 }
 quarter="--set render.width=320 --set render.height=240"
