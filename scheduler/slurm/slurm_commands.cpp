@@ -183,7 +183,7 @@ Result<std::int64_t> SlurmCommands::submit(const ArrayOrder& order) const {
       "--output=" + (order.logs / "%A_%a.log").string(),
       "--open-mode=append",
       "--no-requeue",  // another task makes what is left, with a token of its own
-      fmt::format("--signal=B:TERM@{}", kStopSignal_s),
+      fmt::format("--signal=B:TERM@{}", stop_signal_s(order.time_s)),
       "--nodes=1",
       "--ntasks=1",
       fmt::format("--cpus-per-task={}", order.cpus)};
@@ -196,7 +196,8 @@ Result<std::int64_t> SlurmCommands::submit(const ArrayOrder& order) const {
   arguments.push_back(order.script.string());
   const Result<std::string> output = call(std::move(arguments));
   if (!output) {
-    const std::string& why = output.error().message;
+    std::string why = output.error().message;
+    while (why.ends_with('\n')) why.pop_back();
     return tl::unexpected(
         Error{is_refusal(why) ? ErrorKind::kInput : ErrorKind::kEnvironment, why});
   }

@@ -24,11 +24,17 @@ Status SlurmRun::judge(const std::vector<QueuedTask>& queue) {
   for (const QueuedTask& task : queue) tasks[{task.job, task.index}] = &task;
   for (const auto& submission : book_.submissions()) {
     if (!submission->job) continue;
+    // A controller that was killed gives an id out again: what bears another comment is not ours.
+    const auto is_ours = [&](const QueuedTask& task) {
+      return task.comment == submission->comment() || task.comment.empty() ||
+             task.comment == "(null)";
+    };
     for (std::size_t i = 0; i < submission->batches.size(); ++i) {
       if (submission->batches[i].closed) continue;
       const int index = static_cast<int>(i);
       const auto task = tasks.find({*submission->job, index});
-      Status judged = judge_batch(*submission, index, task == tasks.end() ? nullptr : task->second);
+      const bool listed = task != tasks.end() && is_ours(*task->second);
+      Status judged = judge_batch(*submission, index, listed ? task->second : nullptr);
       if (!judged) return judged;
     }
   }

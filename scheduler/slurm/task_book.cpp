@@ -172,8 +172,9 @@ Status TaskBook::find_jobs(const std::vector<QueuedTask>& queue) {
     const auto found = jobs.find(submission->comment());
     std::optional<std::int64_t> job;
     if (found != jobs.end()) job = found->second;
+    // Looked at after the queue: a job that has begun and ended before that is in neither
+    // otherwise.
     for (std::size_t i = 0; !job && i < submission->batches.size(); ++i) {
-      if (!submission->batches[i].claimed) continue;
       const auto claim = read_claim(submission->files, static_cast<int>(i));
       if (claim && !claim->by_head) job = job_of_task(claim->task);
     }

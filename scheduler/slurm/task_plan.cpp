@@ -13,6 +13,8 @@ constexpr std::int64_t kPilotFrames = 8;
 constexpr double kMargin = 1.5;
 constexpr double kShortestTask_s = 300.0;
 
+constexpr int kStopSignal_s = 120;
+
 double mean(const std::vector<double>& values) {
   if (values.empty()) return 0.0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -45,6 +47,12 @@ double TaskTimes::p95_frame_s() const {
   return sorted[at];
 }
 
+int stop_signal_s(double time_s) {
+  constexpr double kMostOfTime = 0.2;  // of a short task: it is to make something before
+  if (time_s <= 0.0) return kStopSignal_s;
+  return std::clamp(static_cast<int>(kMostOfTime * time_s), 1, kStopSignal_s);
+}
+
 std::int64_t frames_of_task(const TaskPlanWish& wish, const TaskTimes& times) {
   if (wish.batch_frames > 0) return wish.batch_frames;
   const std::int64_t share =
@@ -55,7 +63,8 @@ std::int64_t frames_of_task(const TaskPlanWish& wish, const TaskTimes& times) {
       std::ceil(times.startup_s() * (1.0 / kMostStartupShare - 1.0) / frame_s);
   double most = std::min(worth_starting, static_cast<double>(share));
   if (wish.time_s > 0) {
-    const double left = static_cast<double>(wish.time_s) - 2.0 * times.startup_s() - kStopSignal_s;
+    const auto time_s = static_cast<double>(wish.time_s);
+    const double left = time_s - 2.0 * times.startup_s() - stop_signal_s(time_s);
     most = std::min(most, std::floor(left / (kMargin * std::max(times.p95_frame_s(), 1e-6))));
   }
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(most));

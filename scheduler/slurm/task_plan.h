@@ -37,8 +37,8 @@ struct TaskPlanWish {
 
 /// Start-up is to take this share of a task's time at most.
 inline constexpr double kMostStartupShare = 0.02;
-/// Seconds before the end of its time at which Slurm tells a task to stop.
-inline constexpr int kStopSignal_s = 120;
+/// Seconds before the end of its time (0: not known) at which Slurm tells a task to stop.
+int stop_signal_s(double time_s);
 
 /// Frames of a task. Without times: a few, to measure them. With: so many that starting is
 /// kMostStartupShare of the task's time, but no more than leave work for all tasks that can run at

@@ -41,11 +41,18 @@ TEST(TaskPlan, TasksFitIntoTheirTime) {
   const TaskTimes slow = times(100, 60, 1);
   // 3600 s less twice the start and the time to stop, in frames of 90 s with the margin.
   EXPECT_EQ(frames_of_task({1000, 1, 3600}, slow), 36);
-  EXPECT_EQ(frames_of_task({1000, 1, 330}, slow), 1) << "at least one, whatever was asked";
+  EXPECT_EQ(frames_of_task({1000, 1, 250}, slow), 1) << "at least one, whatever was asked";
   EXPECT_EQ(time_of_task(36, {1000, 1, 7200}, slow), 320 + 36 * 90);
   EXPECT_EQ(time_of_task(36, {1000, 1, 1800}, slow), 1800) << "not beyond what was given";
   EXPECT_EQ(time_of_task(1, {1000, 1}, times(1, 0.1, 1)), 300) << "no task is that short";
   EXPECT_EQ(time_of_task(8, {1000, 1}, TaskTimes()), 0) << "the partition's";
+}
+
+TEST(TaskPlan, ShortTasksAreNotToldToStopAtOnce) {
+  EXPECT_EQ(stop_signal_s(0), 120);
+  EXPECT_EQ(stop_signal_s(3600), 120);
+  EXPECT_EQ(stop_signal_s(60), 12);
+  EXPECT_EQ(stop_signal_s(1), 1);
 }
 
 TEST(TaskPlan, SlowFramesDecideOverTime) {
