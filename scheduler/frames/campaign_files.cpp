@@ -36,7 +36,8 @@ std::vector<std::filesystem::path> CampaignFiles::own() const {
   for (const char* name :
        {"campaign.sqlite", "campaign.sqlite-wal", "campaign.sqlite-shm", "campaign.sqlite-journal",
         "campaign.sqlite.new", "campaign.yaml", "campaign.lock", "provenance.json", "inputs",
-        "frames", "rejected", "audit", "exports", "report.html", "report_files", "logs", "work", "slurm", "nodes.json"}) {
+        "frames", "rejected", "audit", "exports", "report.html", "report_files", "logs", "work",
+        "slurm", "nodes.json"}) {
     all.push_back(root_ / name);
   }
   return all;

@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-using Level = HealthFinding::Level;
+using Judged = HealthFinding::Level;
 
 /// 30 good frames of two classes, to which each test adds what is wrong.
 class HealthTest : public ::testing::Test {
@@ -43,7 +43,7 @@ class HealthTest : public ::testing::Test {
 
 TEST_F(HealthTest, NothingIsWrongWithAGoodDataset) {
   for (const HealthFinding& finding : findings()) {
-    EXPECT_EQ(finding.level, Level::kGood) << finding.title;
+    EXPECT_EQ(finding.level, Judged::kGood) << finding.title;
     EXPECT_THAT(finding.frames, IsEmpty());
   }
   EXPECT_EQ(findings().size(), 6u);
@@ -52,7 +52,7 @@ TEST_F(HealthTest, NothingIsWrongWithAGoodDataset) {
 TEST_F(HealthTest, AClassWithoutObjectsIsRare) {
   categories_.emplace_back("gear");
   const HealthFinding finding = of("rare-classes");
-  EXPECT_EQ(finding.level, Level::kWarning);
+  EXPECT_EQ(finding.level, Judged::kWarning);
   EXPECT_EQ(finding.category, "gear");
   EXPECT_THAT(finding.text, HasSubstr("No frame shows"));
 }
@@ -60,7 +60,7 @@ TEST_F(HealthTest, AClassWithoutObjectsIsRare) {
 TEST_F(HealthTest, AClassFarBelowTheOthersIsRare) {
   categories_.emplace_back("gear");
   for (int i = 0; i < 22; ++i) add_frame(table_, {{.category = 3}});
-  EXPECT_EQ(of("rare-classes").level, Level::kGood) << "22, where the mean is 27";
+  EXPECT_EQ(of("rare-classes").level, Judged::kGood) << "22, where the mean is 27";
   for (int i = 0; i < 300; ++i) add_frame(table_, {{.category = 1}, {.category = 2}});
   const HealthFinding finding = of("rare-classes");
   EXPECT_EQ(finding.category, "gear") << "22, where the mean is 227";
@@ -81,10 +81,10 @@ TEST_F(HealthTest, ManyRareClassesAreToldTogether) {
 
 TEST_F(HealthTest, SmallBoxesAreToldOfTheirClass) {
   for (int i = 0; i < 3; ++i) add_frame(table_, {{.category = 2, .width = 30, .height = 7}});
-  EXPECT_EQ(of("small-boxes").level, Level::kGood) << "3 of 33";
+  EXPECT_EQ(of("small-boxes").level, Judged::kGood) << "3 of 33";
   add_frame(table_, {{.category = 2, .width = 7, .height = 30}});
   const HealthFinding finding = of("small-boxes");
-  EXPECT_EQ(finding.level, Level::kWarning);
+  EXPECT_EQ(finding.level, Judged::kWarning);
   EXPECT_EQ(finding.category, "nut");
   EXPECT_THAT(finding.text, HasSubstr("4 of its 34 boxes"));
   EXPECT_THAT(finding.frames, ElementsAre(30, 31, 32, 33));
@@ -92,24 +92,24 @@ TEST_F(HealthTest, SmallBoxesAreToldOfTheirClass) {
 
 TEST_F(HealthTest, ObjectsThatAreHardlyVisibleAreNoted) {
   for (int i = 0; i < 30; ++i) add_frame(table_, {{.visible_permille = 99}});
-  EXPECT_EQ(of("hidden-objects").level, Level::kNote) << "30 of 90";
+  EXPECT_EQ(of("hidden-objects").level, Judged::kNote) << "30 of 90";
   for (int i = 0; i < 40; ++i) add_frame(table_, {{.visible_permille = 100}});
-  EXPECT_EQ(of("hidden-objects").level, Level::kGood) << "30 of 130";
+  EXPECT_EQ(of("hidden-objects").level, Judged::kGood) << "30 of 130";
 }
 
 TEST_F(HealthTest, FramesThatShowNothingAreTold) {
   add_frame(table_, {{.category = 0}});
   add_frame(table_, {{.width = 0}});
-  EXPECT_EQ(of("empty-frames").level, Level::kNote);
+  EXPECT_EQ(of("empty-frames").level, Judged::kNote);
   EXPECT_THAT(of("empty-frames").frames, ElementsAre(30, 31));
   add_frame(table_, {});
   add_frame(table_, {});
-  EXPECT_EQ(of("empty-frames").level, Level::kWarning) << "4 of 34";
+  EXPECT_EQ(of("empty-frames").level, Judged::kWarning) << "4 of 34";
 }
 
 TEST_F(HealthTest, BlackAndWhitePicturesAreTold) {
   add_frame(table_, {{}}, ShownState::kDone, 8);
-  EXPECT_EQ(of("exposure").level, Level::kWarning);
+  EXPECT_EQ(of("exposure").level, Judged::kWarning);
   EXPECT_THAT(of("exposure").frames, ElementsAre(30));
   has_pictures_ = false;
   EXPECT_EQ(of("exposure").check, "") << "there are no pictures to look at";
@@ -118,7 +118,7 @@ TEST_F(HealthTest, BlackAndWhitePicturesAreTold) {
 TEST_F(HealthTest, NearDuplicatesAreCounted) {
   duplicates_ = {{2, 3, 5}, {7, 9}};
   const HealthFinding finding = of("near-duplicates");
-  EXPECT_EQ(finding.level, Level::kWarning);
+  EXPECT_EQ(finding.level, Judged::kWarning);
   EXPECT_EQ(finding.title, "3 near-duplicate frames");
   EXPECT_THAT(finding.text, HasSubstr("in 2 groups"));
   EXPECT_THAT(finding.frames, ElementsAre(2, 3, 5, 7, 9));
@@ -127,19 +127,19 @@ TEST_F(HealthTest, NearDuplicatesAreCounted) {
 TEST_F(HealthTest, SplitsLeakIfTheyShareASceneOrDuplicates) {
   EXPECT_EQ(of("leaking-splits").check, "") << "there are no exports";
   splits_ = {{"coco", "train", {0, 1, 2}, {0}}, {"coco", "val", {3, 4, 5}, {1}}};
-  EXPECT_EQ(of("leaking-splits").level, Level::kGood);
+  EXPECT_EQ(of("leaking-splits").level, Judged::kGood);
   duplicates_ = {{0, 1}};
-  EXPECT_EQ(of("leaking-splits").level, Level::kGood) << "both are in train";
+  EXPECT_EQ(of("leaking-splits").level, Judged::kGood) << "both are in train";
   duplicates_ = {{1, 4}};
   EXPECT_THAT(of("leaking-splits").text, HasSubstr("1 group of near-duplicates"));
   splits_[1].scenes = {0, 1};
-  EXPECT_EQ(of("leaking-splits").level, Level::kWarning);
+  EXPECT_EQ(of("leaking-splits").level, Judged::kWarning);
   EXPECT_THAT(of("leaking-splits").text, HasSubstr("the first is scene 0"));
 }
 
 TEST_F(HealthTest, ExportsDoNotLeakIntoEachOther) {
   splits_ = {{"coco", "train", {0, 1, 2}, {0}}, {"voc", "val", {0, 1, 2}, {0}}};
-  EXPECT_EQ(of("leaking-splits").level, Level::kGood);
+  EXPECT_EQ(of("leaking-splits").level, Judged::kGood);
 }
 
 TEST(Health, OfNothingSaysNothing) {

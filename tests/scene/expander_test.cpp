@@ -224,9 +224,11 @@ TEST(SceneExpander, AFrameIsOfTheNewVersionOnlyIfItNeedsIt) {
   spec.render.levers.filter_glossy = 1.0;
   EXPECT_EQ(to_json(spec)["version"], 6);
   spec.render.region = PixelRect{0, 0, 8, 8};
-  EXPECT_EQ(to_json(spec)["version"], kFrameSpecVersion);
+  EXPECT_EQ(to_json(spec)["version"], 7);
   spec.render = {};
   spec.labels.target = 1;
+  EXPECT_EQ(to_json(spec)["version"], 7);
+  spec.sensor.emplace();
   EXPECT_EQ(to_json(spec)["version"], kFrameSpecVersion);
 }
 
