@@ -180,10 +180,10 @@ void ObjectPlacer::place_all(const CompiledConfig& config, const MaterialPicker&
 }
 
 void ObjectPlacer::pile(Pass& pass) {
-  static const Mesh nothing;  // for the ground, which everything rests on already
   std::vector<Heaped> heap;
   for (const PlacedInstance& each : pass.draft.placed) {
-    heap.push_back({each.asset ? &each.asset->mesh : &nothing, each.world_from_object, {}});
+    const auto& asset = each.asset;  // none: the ground, which everything rests on already
+    heap.push_back({asset ? &asset->mesh : nullptr, each.world_from_object, {}, asset});
   }
   for (const Falling& each : pass.falling) heap[each.placed].falls = each.order;
   const std::vector<double> raised = heaped_up(heap);
