@@ -61,8 +61,8 @@ Json range_of(const DrawLaw& law) {
 }
 
 struct DrawnFrom {
-  std::array<Json, 3> laws;
-  std::array<Json, 3> ranges;
+  Json laws = Json::array({nullptr, nullptr, nullptr});
+  Json ranges = Json::array({nullptr, nullptr, nullptr});
 };
 
 /// What graphs call the variable that a draw is of, with the component; "variables.scene.turn" is
@@ -116,8 +116,8 @@ Result<Json> describe_variables(const SceneExpander& expander) {
             {"range", nullptr}};
     const auto from = drawn.find(name);
     if (from == drawn.end()) continue;
-    json["distribution"] = is_vector ? Json(from->second.laws) : from->second.laws[0];
-    json["range"] = is_vector ? Json(from->second.ranges) : from->second.ranges[0];
+    json["distribution"] = is_vector ? from->second.laws : from->second.laws[0];
+    json["range"] = is_vector ? from->second.ranges : from->second.ranges[0];
   }
   return variables;
 }

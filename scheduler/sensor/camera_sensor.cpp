@@ -68,12 +68,14 @@ using LightPlanes = std::array<Plane<float>, kSensorChannels>;
 std::vector<float> gaussian(double deviation) {
   const int radius = std::max(1, static_cast<int>(std::ceil(3.0 * deviation)));
   std::vector<double> weights;
+  weights.reserve(2 * static_cast<std::size_t>(radius) + 1);
   double sum = 0.0;
   for (int i = -radius; i <= radius; ++i) {
     weights.push_back(portable::exp(-0.5 * i * i / (deviation * deviation)));
     sum += weights.back();
   }
   std::vector<float> kernel;
+  kernel.reserve(weights.size());
   for (const double weight : weights) kernel.push_back(static_cast<float>(weight / sum));
   return kernel;
 }

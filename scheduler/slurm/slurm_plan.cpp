@@ -88,7 +88,7 @@ Status SlurmRun::submit_group(const std::vector<std::int64_t>& frames, int losse
     room -= static_cast<std::int64_t>(batches->size());
     submission.batches = std::move(*batches);
     submission.source = prepared_.source;
-    if (const auto& choices = prepared_.expander.choices()) submission.choices = *choices;
+    submission.choices = prepared_.expander.choices();
     submission.node_folder = options_.node_folder;
     submission.run = options_for_tasks(asked_);
     ArrayOrder order;

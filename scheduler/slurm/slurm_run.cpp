@@ -22,7 +22,6 @@ SlurmRun::SlurmRun(Campaign& campaign, const PreparedCampaign& prepared, Provena
                    const RunOptions& asked)
     : campaign_(campaign),
       prepared_(prepared),
-      setup_(setup),
       options_(options),
       asked_(asked),
       commands_(options_),

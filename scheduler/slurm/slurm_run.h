@@ -80,7 +80,6 @@ class SlurmRun : public CampaignRun, private FinishClient {
 
   Campaign& campaign_;
   const PreparedCampaign& prepared_;
-  const RunSetup& setup_;
   SlurmOptions options_;
   RunOptions asked_;
   SlurmCommands commands_;

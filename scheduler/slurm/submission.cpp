@@ -86,7 +86,7 @@ Result<Submission> read_submission(const SubmissionFiles& files) {
     if (!json->at("choices").is_null()) {
       Result<RenderChoices> choices = render_choices_from_json(json->at("choices"), what);
       if (!choices) return forward_error(choices);
-      submission.choices = std::move(*choices);
+      submission.choices = std::make_shared<const RenderChoices>(std::move(*choices));
     }
     submission.node_folder = json->at("node_folder").get<std::string>();
     submission.run = json->at("run");

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,7 +56,7 @@ struct Submission {
   std::vector<std::vector<std::int64_t>> batches;  ///< frames, by the index of the task
   std::map<std::int64_t, int> crashes;             ///< that frames have cost so far, if any
   CampaignSource source;                           ///< with absolute paths
-  std::optional<RenderChoices> choices;            ///< of a campaign that promises an error
+  std::shared_ptr<const RenderChoices> choices;    ///< of a campaign that promises an error
   std::filesystem::path node_folder;               ///< see SlurmOptions
   Json run;                                        ///< see options_for_tasks
 };

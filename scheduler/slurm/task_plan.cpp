@@ -11,9 +11,9 @@ constexpr std::size_t kKeptTimes = 2000;
 constexpr std::size_t kEnoughFrames = 3;
 constexpr std::int64_t kPilotFrames = 8;
 constexpr double kMargin = 1.5;
-constexpr double kShortestTask_s = 300.0;
+constexpr double kShortestTask = 300.0;  // seconds, and
 
-constexpr int kStopSignal_s = 120;
+constexpr int kStopSignal = 120;
 
 double mean(const std::vector<double>& values) {
   if (values.empty()) return 0.0;
@@ -42,15 +42,16 @@ double TaskTimes::mean_frame_s() const { return mean(frames_); }
 double TaskTimes::p95_frame_s() const {
   if (frames_.empty()) return 0.0;
   std::vector<double> sorted = frames_;
-  const auto at = static_cast<std::size_t>(0.95 * static_cast<double>(sorted.size() - 1) + 0.5);
+  const auto at =
+      static_cast<std::size_t>(std::lround(0.95 * static_cast<double>(sorted.size() - 1)));
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(at), sorted.end());
   return sorted[at];
 }
 
 int stop_signal_s(double time_s) {
   constexpr double kMostOfTime = 0.2;  // of a short task: it is to make something before
-  if (time_s <= 0.0) return kStopSignal_s;
-  return std::clamp(static_cast<int>(kMostOfTime * time_s), 1, kStopSignal_s);
+  if (time_s <= 0.0) return kStopSignal;
+  return std::clamp(static_cast<int>(kMostOfTime * time_s), 1, kStopSignal);
 }
 
 std::int64_t frames_of_task(const TaskPlanWish& wish, const TaskTimes& times) {
@@ -74,8 +75,8 @@ double time_of_task(std::int64_t frames, const TaskPlanWish& wish, const TaskTim
   const auto most = static_cast<double>(wish.time_s);
   if (!times.known()) return most;
   const double needed =
-      std::max(kShortestTask_s, 2.0 * times.startup_s() + kStopSignal_s +
-                                    kMargin * times.p95_frame_s() * static_cast<double>(frames));
+      std::max(kShortestTask, 2.0 * times.startup_s() + kStopSignal +
+                                  kMargin * times.p95_frame_s() * static_cast<double>(frames));
   return wish.time_s > 0 ? std::min(most, needed) : needed;
 }
 

@@ -69,9 +69,7 @@ Result<PreparedCampaign> Task::prepare_frames(const NodeFolder& node) const {
   source.copies = node.assets();
   Result<PreparedCampaign> prepared = prepare(std::move(source));
   if (!prepared) return prepared;
-  if (submission_.choices) {
-    prepared->expander.set_choices(std::make_shared<const RenderChoices>(*submission_.choices));
-  }
+  if (submission_.choices) prepared->expander.set_choices(submission_.choices);
   return prepared;
 }
 

@@ -63,7 +63,7 @@ void FrameMaker::begin(FrameOrder order) {
   Result<ExpandedFrame> frame = expand(order.request);
   if (!frame) return order.done(forward_error(frame));
   if (order.request.fidelity != Fidelity::kRender) {
-    Result<MadeFrame> made = trace(order.request, std::move(*frame));
+    Result<MadeFrame> made = trace(order.request, *frame);
     if (made) made->made_s = seconds_since(begun);
     return order.done(std::move(made));
   }
@@ -98,7 +98,7 @@ Result<ExpandedFrame> FrameMaker::expand(const FrameRequest& request) const {
   return frame;
 }
 
-Result<MadeFrame> FrameMaker::trace(const FrameRequest& request, ExpandedFrame frame) {
+Result<MadeFrame> FrameMaker::trace(const FrameRequest& request, const ExpandedFrame& frame) {
   MadeFrame made;
   made.frame_id = frame.id;
   made.width = frame.spec.render.width;

@@ -76,7 +76,7 @@ class FrameMaker : private RenderClient {
 
   void begin(FrameOrder order);
   Result<ExpandedFrame> expand(const FrameRequest& request) const;
-  Result<MadeFrame> trace(const FrameRequest& request, ExpandedFrame frame);
+  Result<MadeFrame> trace(const FrameRequest& request, const ExpandedFrame& frame);
   Status shade(const ExpandedFrame& frame, MadeFrame& made);
 
   Status start_pool();

@@ -20,7 +20,7 @@ from judge import Complaint  # noqa: E402
 # Six frames of three instances at most, for the real Blender.
 SMALL = Kind("real", ("--blender", "/usr/bin/blender"),
              GEARS.replace("width: 32, height: 24, samples: 1", "width: 64, height: 48, samples: 4"))
-PATIENCE_S = 120
+PATIENCE_S = 600
 TITLE = "Clusters that break"
 
 

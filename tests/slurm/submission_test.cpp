@@ -33,7 +33,8 @@ Submission example() {
   submission.crashes = {{7, 2}};
   submission.source = {"seedframe: 1\n", "/there/x.yaml", {{"seed", "4", {}}}, "/home"};
   submission.source.allowed.add("/there");
-  submission.choices = RenderChoices{{7, RenderChoice{16, {}, Denoise::kOff}}};
+  submission.choices =
+      std::make_shared<RenderChoices>(RenderChoices{{7, RenderChoice{16, {}, Denoise::kOff}}});
   submission.node_folder = "/scratch";
   RunOptions run;
   run.blender = "/opt/blender";
