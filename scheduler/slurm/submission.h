@@ -51,7 +51,8 @@ class SubmissionFiles {
 };
 
 /// What tasks need to make frames without the campaign's store.
-struct Submission {  // NOLINT(bugprone-exception-escape): Json's move asserts, and throws nothing
+// NOLINTNEXTLINE(bugprone-exception-escape): Json's move asserts, and throws nothing
+struct Submission {
   std::string token;                               ///< that no other submission of anybody has
   std::vector<std::vector<std::int64_t>> batches;  ///< frames, by the index of the task
   std::map<std::int64_t, int> crashes;             ///< that frames have cost so far, if any
