@@ -108,15 +108,17 @@ void add_stream_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
       ->allow_extra_args(false);
   add_allow_option(*verb, arguments->allowed);
-  verb->add_option("--fidelity", options.fidelity,
-                   "of requests that do not say: labels (the twin: milliseconds), preview (the "
-                   "twin, shaded: tens of milliseconds), render (Cycles: tenths of a second and "
-                   "more)")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, Fidelity>{{"labels", Fidelity::kLabels},
-                                                                  {"preview", Fidelity::kPreview},
-                                                                  {"render", Fidelity::kRender}},
-                                  CLI::ignore_case))
+  const auto set_fidelity = [&options](const std::string& name) {
+    for (const Fidelity each : {Fidelity::kLabels, Fidelity::kPreview, Fidelity::kRender}) {
+      if (name == to_string(each)) options.fidelity = each;
+    }
+  };
+  verb->add_option_function<std::string>(
+          "--fidelity", set_fidelity,
+          "of requests that do not say: labels (the twin: milliseconds), preview (the "
+          "twin, shaded: tens of milliseconds), render (Cycles: tenths of a second and "
+          "more)")
+      ->check(CLI::IsMember({"labels", "preview", "render"}))
       ->default_str("labels");
   verb->add_option("--socket", options.socket,
                    "listen at this path for clients, this user's alone, instead of stdin")
