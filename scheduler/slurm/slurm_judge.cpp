@@ -95,6 +95,9 @@ Status SlurmRun::close(HeadSubmission& submission, int index) {
                                 "took{}",
                                 batch.node, last_words(submission, index)));
   }
+  if (const auto node = read_file(files.node(index)); batch.node.empty() && node) {
+    batch.node = node->substr(0, node->find('\n'));  // it was over before the queue told us
+  }
   const bool made_some = *taken > 0 || left.size() < batch.frames.size();
   if (!made_some && !left.empty()) blame(submission, index, end);
   return {};

@@ -53,8 +53,9 @@ Status SlurmRun::plan() {
   return {};
 }
 
-Result<std::vector<std::vector<std::int64_t>>> SlurmRun::batches_of(
-    const std::vector<std::int64_t>& frames, int losses, std::int64_t most_batches) const {
+std::vector<std::vector<std::int64_t>> SlurmRun::batches_of(const std::vector<std::int64_t>& frames,
+                                                            int losses,
+                                                            std::int64_t most_batches) const {
   std::int64_t size = frames_of_task(wish(static_cast<std::int64_t>(frames.size())), times_);
   for (int i = 0; i < losses; ++i) size = std::max<std::int64_t>(1, size / kSmaller);
   std::vector<std::vector<std::int64_t>> batches;
@@ -75,25 +76,23 @@ Status SlurmRun::submit_group(const std::vector<std::int64_t>& frames, int losse
     const std::vector<std::int64_t> rest(frames.begin() + static_cast<std::ptrdiff_t>(given),
                                          frames.end());
     auto batches = batches_of(rest, losses, std::min<std::int64_t>(room, cluster_.most_tasks));
-    if (!batches) return forward_error(batches);
     Submission submission;
     std::size_t longest = 0;
-    for (const std::vector<std::int64_t>& batch : *batches) {
+    for (const std::vector<std::int64_t>& batch : batches) {
       given += batch.size();
       longest = std::max(longest, batch.size());
       for (const std::int64_t frame : batch) {
         if (const int crashes = ledger_.crashes(frame)) submission.crashes[frame] = crashes;
       }
     }
-    room -= static_cast<std::int64_t>(batches->size());
-    submission.batches = std::move(*batches);
+    room -= static_cast<std::int64_t>(batches.size());
+    submission.batches = std::move(batches);
     submission.source = prepared_.source;
     submission.choices = prepared_.expander.choices();
     submission.node_folder = options_.node_folder;
     submission.run = options_for_tasks(asked_);
     ArrayOrder order;
     order.name = campaign_.files.root().filename().string();
-    order.cpus = options_.cpus > 0 ? options_.cpus : cluster_.cpus;
     const auto count = static_cast<std::int64_t>(longest);
     order.time_s = time_of_task(count, wish(static_cast<std::int64_t>(frames.size())), times_);
     if (!avoided.empty()) order.exclude.push_back(avoided);
@@ -117,7 +116,7 @@ Status SlurmRun::send(HeadSubmission& submission) {
   submission.asked = true;  // whatever the answer is: the queue is asked before it is called again
   ArrayOrder order = submission.order;
   order.exclude.insert(order.exclude.end(), left_out_.begin(), left_out_.end());
-  if (order.cpus <= 1) order.cpus = options_.cpus > 0 ? options_.cpus : cluster_.cpus;
+  order.cpus = options_.cpus > 0 ? options_.cpus : cluster_.cpus;
   const Result<std::int64_t> job = commands_.submit(order);
   if (job) {
     last_answer_ = std::chrono::steady_clock::now();

@@ -62,9 +62,8 @@ class SlurmRun : public CampaignRun, private FinishClient {
 
   // What is given out.
   Status plan();
-  Result<std::vector<std::vector<std::int64_t>>> batches_of(const std::vector<std::int64_t>& frames,
-                                                            int losses,
-                                                            std::int64_t most_batches) const;
+  std::vector<std::vector<std::int64_t>> batches_of(const std::vector<std::int64_t>& frames,
+                                                    int losses, std::int64_t most_batches) const;
   Status submit_group(const std::vector<std::int64_t>& frames, int losses,
                       const std::string& avoided, std::int64_t& room);
   Status send_due();

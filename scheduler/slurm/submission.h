@@ -5,6 +5,7 @@
 //                task.sh           what Slurm starts
 //                job               the array's job, once it is known
 //                claims/17         batch 17 belongs to whoever could make this file (O_EXCL)
+//                claims/17.node    where its task was started, said before anything can go wrong
 //                claims/17.over    the head has closed the batch: what comes now is not looked at
 //                17/               made by the task: a folder and a record for each frame
 //                17.over/          the same, closed
@@ -38,6 +39,9 @@ class SubmissionFiles {
   std::filesystem::path job() const { return root_ / "job"; }
   std::filesystem::path claims() const { return root_ / "claims"; }
   std::filesystem::path claim(int batch) const { return claims() / std::to_string(batch); }
+  std::filesystem::path node(int batch) const {
+    return claims() / (std::to_string(batch) + ".node");
+  }
   std::filesystem::path over(int batch) const {
     return claims() / (std::to_string(batch) + ".over");
   }

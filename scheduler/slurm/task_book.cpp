@@ -29,13 +29,15 @@ std::string in_quotes(const std::string& text) {
 }
 
 /// What Slurm starts for each task.
-std::string script_text(const fs::path& submission) {
+std::string script_text(const SubmissionFiles& files) {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
   return fmt::format(
       "#!/bin/sh\n# One task of an array: makes the frames of its batch (docs/cluster.md).\n"
+      "echo \"$SLURMD_NODENAME\" >{}/\"$SLURM_ARRAY_TASK_ID\".node\n"
       "exec {} run-batch {} \"$SLURM_ARRAY_TASK_ID\"\n",
-      in_quotes(program.string()), in_quotes(submission.string()));
+      in_quotes(files.claims().string()), in_quotes(program.string()),
+      in_quotes(files.root().string()));
 }
 
 /// "1234" of the task "1234_17".
@@ -112,7 +114,7 @@ Result<HeadSubmission*> TaskBook::create(Submission prototype, ArrayOrder order,
        {files_.slurm(), files_.slurm_logs(), made->files.root(), made->files.claims()}) {
     if (Status ready = make_folders_in(files_.root(), folder); !ready) return forward_error(ready);
   }
-  Status written = write_file_atomically(made->files.script(), script_text(made->files.root()));
+  Status written = write_file_atomically(made->files.script(), script_text(made->files));
   if (written) {
     written = write_file_atomically(made->files.submission(), canonical_json(to_json(prototype)));
   }

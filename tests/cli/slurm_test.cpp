@@ -49,6 +49,14 @@ class SlurmTest : public ProgramTest {
     return run(arguments, lines_);
   }
 
+  /// A head whose tasks never begin by themselves.
+  pid_t start_held(const std::string& batch_frames) {
+    lines_ = environment(R"({"hold": true})");
+    return start({"submit", "line.yaml", "-o", "far", "--executor", "slurm", "--poll", "0.1",
+                  "--batch-frames", batch_frames},
+                 lines_);
+  }
+
   std::string hash_of(const std::string& campaign) {
     return status(campaign)["dataset_hash"].get<std::string>();
   }
@@ -195,10 +203,7 @@ TEST_F(SlurmTest, NoMoreIsSubmittedAtOnceThanTheControllerKeeps) {
 }
 
 TEST_F(SlurmTest, AKilledHeadIsFollowedByOneThatCollects) {
-  lines_ = environment(R"({"hold": true})");
-  const pid_t head = start({"submit", "line.yaml", "-o", "far", "--executor", "slurm", "--poll",
-                            "0.1", "--batch-frames", "3", "--quiet"},
-                           lines_);
+  const pid_t head = start_held("3");
   wait_for("far/slurm/state.json");
   ::kill(head, SIGKILL);
   wait(head);
@@ -234,10 +239,7 @@ TEST_F(SlurmTest, ATaskThatBeginsAfterItsBatchWasGivenUpDoesNothing) {
 }
 
 TEST_F(SlurmTest, OfABatchOnlyOneTaskMakesFrames) {
-  lines_ = environment(R"({"hold": true})");
-  const pid_t head = start({"submit", "line.yaml", "-o", "far", "--executor", "slurm", "--poll",
-                            "0.1", "--batch-frames", "9", "--quiet"},
-                           lines_);
+  const pid_t head = start_held("9");
   wait_for("far/slurm/0001/job");
   ::kill(head, SIGKILL);
   wait(head);
@@ -257,10 +259,7 @@ TEST_F(SlurmTest, ANodeWithOtherFilesIsFoundOut) {
   config.replace(config.find("asset: gear"), 11, "asset: part");
   config += "asset_folders: [own]\n";
   write("line.yaml", config);
-  lines_ = environment(R"({"hold": true})");
-  const pid_t head = start({"submit", "line.yaml", "-o", "far", "--executor", "slurm", "--poll",
-                            "0.1", "--batch-frames", "9"},
-                           lines_);
+  const pid_t head = start_held("9");
   wait_for("far/slurm/0001/job");
   make_part("hex_bolt");  // what this node sees under the name
   write("cluster/1_0.queued", "n1");
@@ -277,10 +276,7 @@ TEST_F(SlurmTest, ANodeWithOtherFilesIsFoundOut) {
 }
 
 TEST_F(SlurmTest, ATaskThatIsPutBackIntoTheQueueIsNotWaitedFor) {
-  lines_ = environment(R"({"hold": true})");
-  const pid_t head = start({"submit", "line.yaml", "-o", "far", "--executor", "slurm", "--poll",
-                            "0.1", "--batch-frames", "9", "--quiet"},
-                           lines_);
+  const pid_t head = start_held("9");
   wait_for("far/slurm/0001/job");
   write("far/slurm/0001/claims/0", "{}");  // it had begun, and Slurm has it wait again
   wait_for("far/slurm/0002/job");
@@ -290,10 +286,7 @@ TEST_F(SlurmTest, ATaskThatIsPutBackIntoTheQueueIsNotWaitedFor) {
 }
 
 TEST_F(SlurmTest, StoppedItCancelsAndIsResumed) {
-  lines_ = environment(R"({"hold": true})");
-  const pid_t head = start({"submit", "line.yaml", "-o", "far", "--executor", "slurm", "--poll",
-                            "0.1", "--batch-frames", "2"},
-                           lines_);
+  const pid_t head = start_held("2");
   wait_for("far/slurm/0001/job");
   ::kill(head, SIGINT);
   const Outcome stopped = wait(head);

@@ -11,7 +11,7 @@ are not excluded, in turn. FAKE_SLURM_DO is a JSON object; all keys are optional
     "hold": true                      tasks never begin
     "vanish": [0]                     indices of the first array that leave the queue without having begun
     "twice": true                     each task is started twice
-    "bad_nodes": ["n1"]               where a task ends at once, without its program
+    "bad_nodes": ["n1"]               where the program is missing
     "nodes": 3, "max_array_size": 1001, "max_job_count": 10000
 """
 
@@ -93,12 +93,12 @@ def run(job):
         nodes = [f"n{i + 1}" for i in range(NODES) if f"n{i + 1}" not in ",".join(excluded).split(",")]
         node = nodes[turn_of % len(nodes)]
         queued.write_text(node)
-        script = job["script"]
+        script = pathlib.Path(job["script"]).read_text()
         if node in WISH.get("bad_nodes", []):
-            script = "/nowhere/seedframe"
+            script = re.sub("exec '[^']*'", "exec '/nowhere/seedframe'", script)
         for _ in range(2 if WISH.get("twice") else 1):
             with open(job["logs"].replace("%A", str(job["id"])).replace("%a", str(index)), "a") as log:
-                subprocess.run(["/bin/sh", script], stdout=log, stderr=log, env={
+                subprocess.run(["/bin/sh", "-c", script], stdout=log, stderr=log, env={
                     **os.environ, "SLURM_ARRAY_JOB_ID": str(job["id"]), "SLURM_ARRAY_TASK_ID": str(index),
                     "SLURMD_NODENAME": node, "SLURM_CPUS_PER_TASK": "1"})
         queued.unlink(missing_ok=True)
