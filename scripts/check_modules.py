@@ -3,8 +3,9 @@
 house's limits.
 
 A module may include what is named behind it, headers only what is behind PUBLIC, and nothing may be named there that
-no file needs. A test may include its module, what that has behind PUBLIC, and what is named behind the test. No module
-has more than 40 files, no file of ours more than 400 lines. Exits with 1 and a line for each finding.
+no file needs. A test may include its module, what that has behind PUBLIC, and what is named behind the test. No two
+types have one name, which linkers would take for one type. No module has more than 40 files, no file of ours more than
+400 lines. Exits with 1 and a line for each finding.
 """
 
 import pathlib
@@ -87,6 +88,22 @@ def tracked_files(*patterns):
     return [ROOT / line for line in listed.splitlines() if (ROOT / line).exists()]
 
 
+def shared_types(file):
+    """Names of the types that a file defines outside of functions, types and unnamed namespaces."""
+    text = re.sub(r"^namespace \{\n.*?^\}  // namespace\n", "", file.read_text(), flags=re.M | re.S)
+    return re.findall(r"^(?:struct|class|enum class|enum) (?:\w+ )?(\w+)(?: final)?(?: :[^;]*?)?\s*\{", text, re.M)
+
+
+def type_faults(files):
+    places = {}
+    for file in files:
+        for name in shared_types(file):
+            places.setdefault(name, []).append(str(file.relative_to(ROOT)))
+    for name, where in sorted(places.items()):
+        if len(where) > 1:
+            yield f"there are several types {name}: {', '.join(where)}"
+
+
 def faults():
     modules = declared("CMakeLists.txt", "seedframe_module", MODULE_KINDS)
     tests = declared("tests/CMakeLists.txt", "seedframe_test", TEST_KINDS)
@@ -105,6 +122,7 @@ def faults():
         count = len(list((ROOT / "scheduler" / name).glob("*.*")))
         if count > MOST_FILES:
             yield f"scheduler/{name} has {count} files: part it, {MOST_FILES} are the most"
+    yield from type_faults(tracked_files("scheduler/*.h", "scheduler/*.cpp"))
     for file in tracked_files("*.cpp", "*.h", "*.py"):
         lines = file.read_text().count("\n")
         if lines > MOST_LINES:

@@ -259,10 +259,10 @@ class Ends(ProgramTest):
         self.assertTrue(self.all_ended(processes))
 
     def test_a_killed_program_is_an_error_of_every_request(self):
-        self.environment(SEEDFRAME_FAKE=json.dumps({"delay_s": 0.5}))
+        self.environment(SEEDFRAME_FAKE=json.dumps({"delay_s": 2}))
         stream = Stream(self.config, "render", 2, blender=FAKE_BLENDER)
         futures = [stream.submit({"turn": turn}) for turn in range(60)]
-        futures[0].result()
+        concurrent.futures.wait(futures, return_when=concurrent.futures.FIRST_COMPLETED)
         processes = self.processes(stream)
         self.assertGreater(len(processes), 1)
         os.kill(processes[0], signal.SIGKILL)

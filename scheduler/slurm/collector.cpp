@@ -45,7 +45,7 @@ Result<std::int64_t> Collector::collect(const fs::path& results, TaskTimes& time
     const Result<std::string> text = read_file(path);
     if (!text) return forward_error(text);
     const Json json = Json::parse(*text, nullptr, false);
-    Result<FrameRecord> record = frame_record_from_json(json, path.string());
+    Result<TaskFrame> record = task_frame_from_json(json, path.string());
     if (!record) {
       stage_.note(record.error().message + "; it is not looked at");
       continue;
@@ -73,7 +73,7 @@ Result<std::int64_t> Collector::collect(const fs::path& results, TaskTimes& time
 }
 
 std::string Collector::refusal(const Found& found) const {
-  const FrameRecord& record = found.record;
+  const TaskFrame& record = found.record;
   if (record.frame_id != found.frame_id) {
     return fmt::format(
         "node {} makes another frame of it: its assets, its config's files or its Seedframe are "
@@ -93,7 +93,7 @@ std::string Collector::refusal(const Found& found) const {
 }
 
 void Collector::settle(const Found& found) {
-  const FrameRecord& record = found.record;
+  const TaskFrame& record = found.record;
   move_evidence(found);
   for (std::size_t i = 0; i < record.attempts.size(); ++i) {
     const AttemptRow& attempt = record.attempts[i];
@@ -141,7 +141,7 @@ Status Collector::move_frame(const Found& found, const FrameJob& job, Manifest& 
 }
 
 void Collector::move_evidence(const Found& found) const {
-  const FrameRecord& record = found.record;
+  const TaskFrame& record = found.record;
   std::error_code ignored;
   const fs::path rejected = found.results / batch_files::rejected(record.frame);
   if (fs::exists(rejected, ignored)) {

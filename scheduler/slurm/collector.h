@@ -13,7 +13,7 @@
 #include "campaign/finish_stage.h"
 #include "campaign/provenance.h"
 #include "slurm/frame_ledger.h"
-#include "slurm/frame_record.h"
+#include "slurm/task_frame.h"
 #include "slurm/task_plan.h"
 
 namespace seedframe {
@@ -45,7 +45,7 @@ class Collector {
 
  private:
   struct Found {
-    FrameRecord record;
+    TaskFrame record;
     std::filesystem::path results;
     int first_attempt = 1;
     std::string frame_id;

@@ -63,14 +63,14 @@ void Delivery::attempt_failed(const FrameJob& job, const AttemptFailure& failure
 void Delivery::noted(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
 
 void Delivery::push(std::int64_t frame, FrameState state) {
-  Result<FrameRecord> record = record_of(frame, state);
+  Result<TaskFrame> record = record_of(frame, state);
   if (!record) return fail_with(record.error());
   queue_->push([this, record = std::move(*record)] {
     if (Status delivered = deliver(record); !delivered) fail_with(delivered.error());
   });
 }
 
-Result<FrameRecord> Delivery::record_of(std::int64_t frame, FrameState state) {
+Result<TaskFrame> Delivery::record_of(std::int64_t frame, FrameState state) {
   const auto row = campaign_.store.frame(frame);
   if (!row) return forward_error(row);
   auto attempts = campaign_.store.attempts(frame);
@@ -83,12 +83,12 @@ Result<FrameRecord> Delivery::record_of(std::int64_t frame, FrameState state) {
       attempt.message.erase(at, here.size());
     }
   }
-  return FrameRecord{
+  return TaskFrame{
       frame,         *row ? (*row)->frame_id : std::string(),     state,     std::move(*attempts),
       task_.workers, std::max(0.0, first_frame_ - task_.started), task_.node};
 }
 
-Status Delivery::deliver(const FrameRecord& record) {
+Status Delivery::deliver(const TaskFrame& record) {
   if (record.state == FrameState::kDone) {
     const fs::path made = campaign_.files.frame(record.frame);
     Status brought = bring_folder(made, results_ / batch_files::frame(record.frame));
@@ -101,7 +101,7 @@ Status Delivery::deliver(const FrameRecord& record) {
                                canonical_json(to_json(record)));
 }
 
-Status Delivery::deliver_evidence(const FrameRecord& record) {
+Status Delivery::deliver_evidence(const TaskFrame& record) {
   std::error_code missing;
   const fs::path rejected = campaign_.files.rejected(record.frame);
   if (fs::exists(rejected, missing)) {

@@ -11,7 +11,7 @@
 #include "campaign/campaign.h"
 #include "campaign/campaign_run.h"
 #include "campaign/finish_queue.h"
-#include "slurm/frame_record.h"
+#include "slurm/task_frame.h"
 
 namespace seedframe {
 
@@ -46,9 +46,9 @@ class Delivery : public RunObserver {
  private:
   /// Reads what the store says of the frame, and has it delivered.
   void push(std::int64_t frame, FrameState state);
-  Result<FrameRecord> record_of(std::int64_t frame, FrameState state);
-  Status deliver(const FrameRecord& record);
-  Status deliver_evidence(const FrameRecord& record);
+  Result<TaskFrame> record_of(std::int64_t frame, FrameState state);
+  Status deliver(const TaskFrame& record);
+  Status deliver_evidence(const TaskFrame& record);
   void fail_with(const Error& error);
 
   Campaign& campaign_;

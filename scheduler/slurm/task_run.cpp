@@ -10,9 +10,9 @@
 #include "campaign/drain_signals.h"
 #include "scene/prepared_campaign.h"
 #include "slurm/delivery.h"
-#include "slurm/frame_record.h"
 #include "slurm/node_folder.h"
 #include "slurm/submission.h"
+#include "slurm/task_frame.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;

@@ -9,7 +9,7 @@
 
 #include "base/files.h"
 #include "campaign/run_options.h"
-#include "slurm/frame_record.h"
+#include "slurm/task_frame.h"
 #include "tests/fixtures/scratch_folder.h"
 
 namespace seedframe {
@@ -108,8 +108,8 @@ TEST_F(SubmissionTest, WhatComesIntoAClosedBatchIsLost) {
   EXPECT_TRUE(is_closed(files_, 5));
 }
 
-FrameRecord record() {
-  FrameRecord record;
+TaskFrame record() {
+  TaskFrame record;
   record.frame = 42;
   record.frame_id = "id";
   record.state = FrameState::kQuarantined;
@@ -121,25 +121,25 @@ FrameRecord record() {
   return record;
 }
 
-TEST(FrameRecord, IsReadAsItWasWritten) {
-  const auto read = frame_record_from_json(to_json(record()), "test");
+TEST(TaskFrame, IsReadAsItWasWritten) {
+  const auto read = task_frame_from_json(to_json(record()), "test");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(to_json(*read), to_json(record()));
   EXPECT_EQ(read->attempts.back().render_s, 0.2);
 }
 
-TEST(FrameRecord, GarbageIsRefused) {
-  EXPECT_FALSE(frame_record_from_json(Json(), "test"));
+TEST(TaskFrame, GarbageIsRefused) {
+  EXPECT_FALSE(task_frame_from_json(Json(), "test"));
   for (const char* key : {"frame", "frame_id", "state", "attempts", "workers", "node"}) {
     Json json = to_json(record());
     json.erase(key);
-    EXPECT_FALSE(frame_record_from_json(json, "test")) << key;
+    EXPECT_FALSE(task_frame_from_json(json, "test")) << key;
     json[key] = Json::array();
-    EXPECT_FALSE(frame_record_from_json(json, "test")) << key;
+    EXPECT_FALSE(task_frame_from_json(json, "test")) << key;
   }
   Json running = to_json(record());
   running["state"] = "running";
-  EXPECT_FALSE(frame_record_from_json(running, "test"));
+  EXPECT_FALSE(task_frame_from_json(running, "test"));
 }
 
 TEST(TaskEnd, IsReadAsItWasWritten) {

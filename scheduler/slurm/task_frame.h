@@ -14,7 +14,7 @@ namespace seedframe {
 
 /// A frame that is over as far as the task is concerned. Written after the frame's folder has its
 /// name, so that who reads it finds that complete.
-struct FrameRecord {
+struct TaskFrame {
   std::int64_t frame = 0;
   std::string frame_id;
   FrameState state = FrameState::kDone;  ///< or kFailed, or kQuarantined
@@ -24,9 +24,9 @@ struct FrameRecord {
   std::string node;
 };
 
-Json to_json(const FrameRecord& record);
+Json to_json(const TaskFrame& record);
 /// kCorrupt: not what to_json made.
-Result<FrameRecord> frame_record_from_json(const Json& json, const std::string& what);
+Result<TaskFrame> task_frame_from_json(const Json& json, const std::string& what);
 
 /// The last that a task writes.
 struct TaskEnd {

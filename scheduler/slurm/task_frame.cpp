@@ -1,4 +1,4 @@
-#include "slurm/frame_record.h"
+#include "slurm/task_frame.h"
 
 #include <array>
 #include <cstddef>
@@ -43,7 +43,7 @@ AttemptRow attempt_from(const Json& json) {
 
 }  // namespace
 
-Json to_json(const FrameRecord& record) {
+Json to_json(const TaskFrame& record) {
   Json attempts = Json::array();
   for (const AttemptRow& attempt : record.attempts) attempts.push_back(json_of(attempt));
   return {
@@ -52,9 +52,9 @@ Json to_json(const FrameRecord& record) {
       {"node", record.node}};
 }
 
-Result<FrameRecord> frame_record_from_json(const Json& json, const std::string& what) {
+Result<TaskFrame> task_frame_from_json(const Json& json, const std::string& what) {
   try {
-    FrameRecord record;
+    TaskFrame record;
     record.frame = integer_of<std::int64_t>(json.at("frame"));
     record.frame_id = json.at("frame_id").get<std::string>();
     record.state = named(kStates, json.at("state").get<std::string>());
