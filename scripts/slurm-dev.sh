@@ -9,7 +9,7 @@
 #       --cpus 2               of a node      or SLURM_DEV_CPUS; may be more than the machine has
 #       --max-array-size 1001                 or SLURM_DEV_MAX_ARRAY_SIZE
 #       --port 20000           the first of nodes + 1 in a row, or SLURM_DEV_PORT; else any that are free
-#       --set SlurmdTimeout=5  any line of slurm.conf, also again
+#       --set SlurmdTimeout=5  any line of slurm.conf, also again, in place of the one that it has; or of a partition
 #   scripts/slurm-dev.sh down DIR             ends all that belongs to it, jobs too; DIR stays. Also when it is down
 #
 #   scripts/slurm-dev.sh kill-node DIR n1     power loss: SIGKILL to the node's slurmd, its slurmstepds and its jobs
@@ -150,8 +150,12 @@ END
     done
     echo "PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP"
   } >"$dir/slurm.conf.new"
-  for line in $settings; do
-    { grep -vi "^${line%%=*}=" "$dir/slurm.conf.new" || true; echo "$line"; } >"$dir/slurm.conf.newer"
+  printf '%s' "$settings" | while IFS= read -r line; do
+    case $line in
+      PartitionName=* | NodeName=*) place=${line%% *} ;;
+      *) place=${line%%=*} ;;
+    esac
+    { grep -vi "^$place[ =]" "$dir/slurm.conf.new" || true; echo "$line"; } >"$dir/slurm.conf.newer"
     mv "$dir/slurm.conf.newer" "$dir/slurm.conf.new"
   done
   mv "$dir/slurm.conf.new" "$dir/slurm.conf"
@@ -174,7 +178,7 @@ start_all() { # 1 unless all nodes are idle after a while
     start_node "n$i" -c || return 1
   done
   for _ in $(seq 300); do
-    [ "$(sinfo --Node --noheader --states=idle --responding 2>/dev/null | wc -l)" != "$nodes" ] || return 0
+    [ "$(sinfo --Node --noheader --states=idle --responding --format=%N 2>/dev/null | sort -u | wc -l)" != "$nodes" ] || return 0
     sleep 0.1
   done
   return 1
@@ -193,7 +197,8 @@ up() {
       --cpus) cpus=$2 ;;
       --max-array-size) max_array_size=$2 ;;
       --port) asked_port=$2 ;;
-      --set) settings="$settings $2" ;;
+      --set) settings="$settings$2
+" ;;
       *) fail 2 "up knows no option $1: --nodes, --cpus, --max-array-size, --port, --set" ;;
     esac
     shift 2

@@ -83,9 +83,11 @@ Result<SlurmCluster> read_cluster(std::string_view config, std::string_view node
   cluster.most_jobs = *most_jobs;
   std::set<std::string_view> names;
   int least_cpus = std::numeric_limits<int>::max();
+  // The partition that jobs go to which name none is marked; if one was named, it is the only one.
+  const bool has_default = nodes.find("*\n") != std::string_view::npos;
   for (const std::string_view line : split(nodes, '\n')) {
     const std::vector<std::string_view> fields = split(line, '|');
-    if (fields.size() != 3) continue;
+    if (fields.size() != 4 || (has_default && !fields[3].ends_with('*'))) continue;
     const auto cpus = number<int>(fields[1]);
     const bool gone = fields[2].starts_with("down") || fields[2].starts_with("drain");
     if (!cpus || gone) continue;
@@ -164,7 +166,7 @@ bool is_refusal(std::string_view message) {
 Result<SlurmCluster> SlurmCommands::cluster() const {
   const Result<std::string> config = call({"scontrol", "show", "config"});
   if (!config) return forward_error(config);
-  std::vector<std::string> ask = {"sinfo", "--noheader", "--Node", "--format=%N|%c|%T"};
+  std::vector<std::string> ask = {"sinfo", "--noheader", "--Node", "--format=%N|%c|%T|%P"};
   if (!options_.partition.empty()) ask.push_back("--partition=" + options_.partition);
   const Result<std::string> nodes = call(std::move(ask));
   if (!nodes) return forward_error(nodes);

@@ -24,16 +24,11 @@ Status SlurmRun::judge(const std::vector<QueuedTask>& queue) {
   for (const QueuedTask& task : queue) tasks[{task.job, task.index}] = &task;
   for (const auto& submission : book_.submissions()) {
     if (!submission->job) continue;
-    // A controller that was killed gives an id out again: what bears another comment is not ours.
-    const auto is_ours = [&](const QueuedTask& task) {
-      return task.comment == submission->comment() || task.comment.empty() ||
-             task.comment == "(null)";
-    };
     for (std::size_t i = 0; i < submission->batches.size(); ++i) {
       if (submission->batches[i].closed) continue;
       const int index = static_cast<int>(i);
       const auto task = tasks.find({*submission->job, index});
-      const bool listed = task != tasks.end() && is_ours(*task->second);
+      const bool listed = task != tasks.end() && submission->owns(*task->second);
       Status judged = judge_batch(*submission, index, listed ? task->second : nullptr);
       if (!judged) return judged;
     }
@@ -139,7 +134,7 @@ Status SlurmRun::leave_out_bad_nodes() {
     const std::vector<std::string> all(left_out_.begin(), left_out_.end());
     for (const auto& submission : book_.submissions()) {
       // Where Slurm does not allow that, tasks still go there, and others make their frames.
-      if (submission->job) (void)commands_.exclude(*submission->job, all);
+      if (submission->queued) (void)commands_.exclude(*submission->job, all);
     }
   }
   return {};

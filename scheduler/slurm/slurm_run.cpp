@@ -162,6 +162,7 @@ Status SlurmRun::stop_tasks() {
       if (Status closed = close_unstarted(*submission); !closed) return closed;
       continue;
     }
+    if (!submission->queued) continue;
     // What cannot be told now is told at the next look.
     (void)commands_.cancel(*submission->job, /*waiting_only=*/true);
     (void)commands_.tell_to_stop(*submission->job);
@@ -173,10 +174,14 @@ Status SlurmRun::finish_up() {
   while (ledger_.any_settling() && !ended_) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
+  if (book_.open_batches() > 0) {
+    const std::vector<QueuedTask> queue = commands_.queue().value_or(std::vector<QueuedTask>());
+    if (Status found = book_.find_jobs(queue); !found) return found;
+  }
   for (const auto& submission : book_.submissions()) {
     if (submission->all_closed()) continue;
     // Every frame has come; what is still there makes frames that somebody else has made.
-    if (submission->job) (void)commands_.cancel(*submission->job, /*waiting_only=*/false);
+    if (submission->queued) (void)commands_.cancel(*submission->job, /*waiting_only=*/false);
     for (std::size_t i = 0; i < submission->batches.size(); ++i) {
       HeadBatch& batch = submission->batches[i];
       if (batch.closed) continue;

@@ -52,6 +52,11 @@ bool HeadSubmission::all_closed() const {
                      [](const HeadBatch& batch) { return batch.closed; });
 }
 
+bool HeadSubmission::owns(const QueuedTask& task) const {
+  return job == task.job &&
+         (task.comment == comment() || task.comment.empty() || task.comment == "(null)");
+}
+
 Result<std::unique_ptr<HeadSubmission>> TaskBook::load_one(const fs::path& folder) const {
   auto loaded = std::make_unique<HeadSubmission>();
   loaded->files = SubmissionFiles(folder);
@@ -170,10 +175,13 @@ Status TaskBook::find_jobs(const std::vector<QueuedTask>& queue) {
   std::map<std::string, std::int64_t> jobs;
   for (const QueuedTask& task : queue) jobs.emplace(task.comment, task.job);
   for (const auto& submission : submissions_) {
+    submission->queued = std::any_of(
+        queue.begin(), queue.end(), [&](const QueuedTask& task) { return submission->owns(task); });
     if (submission->job) continue;
     const auto found = jobs.find(submission->comment());
     std::optional<std::int64_t> job;
     if (found != jobs.end()) job = found->second;
+    submission->queued = job.has_value();
     // Looked at after the queue: a job that has begun and ended before that is in neither
     // otherwise.
     for (std::size_t i = 0; !job && i < submission->batches.size(); ++i) {

@@ -34,10 +34,13 @@ struct HeadSubmission {
   ArrayOrder order;
   std::optional<std::int64_t> job;  ///< none: not submitted, or the answer was lost
   bool asked = false;               ///< sbatch was called, and the queue was not looked at since
+  bool queued = false;              ///< tasks of it were in the queue when that was looked at
   int tries = 0;
   std::chrono::steady_clock::time_point next_try{};
 
   bool all_closed() const;
+  /// A controller that was killed gives an id out again: what bears another comment is not ours.
+  bool owns(const QueuedTask& task) const;
   std::string comment() const { return "seedframe " + token; }
 };
 
@@ -58,8 +61,9 @@ class TaskBook {
 
   /// Which batches have begun, by their claims.
   void look_for_claims();
-  /// Notes the jobs of submissions whose answer was lost: by their comments in the queue, or by
-  /// what their tasks have claimed. What is known of neither may be submitted (again) then.
+  /// Notes which submissions are in the queue, and the jobs of those whose answer was lost: by
+  /// their comments there, or by what their tasks have claimed. What is known of neither may be
+  /// submitted (again) then.
   Status find_jobs(const std::vector<QueuedTask>& queue);
   Status set_job(HeadSubmission& submission, std::int64_t job);
 

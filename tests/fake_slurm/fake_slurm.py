@@ -128,7 +128,7 @@ def scancel():
 
 def sinfo():
     for node in range(NODES):
-        print(f"n{node + 1}|1|idle")
+        print(f"n{node + 1}|1|idle|main*")
 
 
 def scontrol():

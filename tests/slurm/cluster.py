@@ -64,7 +64,8 @@ class Cluster:
 
     def node_state(self, node):
         """Such as "idle" or "down*"; empty while nobody answers."""
-        return (ask("sinfo", "--noheader", "--Node", f"--nodes={node}", "--format=%T") or "").strip()
+        # A line for each partition that it is in.
+        return (ask("sinfo", "--noheader", "--Node", f"--nodes={node}", "--format=%T") or "").strip().split("\n")[0]
 
     def arrays(self):
         """Comments of arrays by job, of all that the controller remembers (MinJobAge)."""
@@ -75,6 +76,12 @@ class Cluster:
                 comment = line.partition(" Comment=")[2].partition(" StdErr=")[0].strip()
                 found[int(fields["ArrayJobId"])] = comment
         return found
+
+    def fate(self, task):
+        """What the controller knows of a task, in a line."""
+        words = (ask("scontrol", "--oneliner", "show", "job", task) or "").split()
+        wanted = ("JobState", "Reason", "ExitCode", "Restarts", "StartTime", "EndTime", "NodeList")
+        return " ".join([task, *(word for word in words if word.split("=")[0] in wanted)])
 
     # ---- What breaks ----
 

@@ -24,7 +24,9 @@ SCENES = 8  # of three frames, three frames a task: eight tasks on three nodes
 FRAME_S = 0.15
 ENDS_EARLY = (3, 4)  # frames have failed; what the head works with has
 # Soon noticed, so that a cycle does not take minutes.
-SETTINGS = ("SlurmdTimeout=5", "MessageTimeout=3", "KillWait=1")
+SETTINGS = ("SlurmdTimeout=5", "MessageTimeout=3", "KillWait=1", "PreemptType=preempt/partition_prio", "PreemptMode=CANCEL",
+            "SlurmctldParameters=preempt_send_user_signal", "PartitionName=main Nodes=ALL Default=YES State=UP PriorityTier=1 GraceTime=5",
+            "PartitionName=urgent Nodes=ALL State=UP PriorityTier=9 PreemptMode=OFF")
 
 
 class Case:
@@ -96,6 +98,12 @@ def requeued(case):
     return subprocess.run(["scontrol", "requeue", job], check=False, stderr=subprocess.DEVNULL).returncode == 0
 
 
+def preempted(case):
+    """somebody else's job that comes first on a node"""
+    return subprocess.run(["sbatch", "--partition=urgent", f"--nodelist={case.node}", "--exclusive", "--output=/dev/null",
+                           "--wrap=sleep 2"], check=False, stdout=subprocess.DEVNULL).returncode == 0
+
+
 def power(case):
     """power loss of a node, which comes back"""
     case.cluster.kill_node(case.node)
@@ -111,7 +119,7 @@ def head(case):
     return True
 
 
-FAULTS = {fault.__name__: fault for fault in (controller, daemon, step, frozen, cancelled, requeued, power, head)}
+FAULTS = {fault.__name__: fault for fault in (controller, daemon, step, frozen, cancelled, requeued, preempted, power, head)}
 
 
 def main():

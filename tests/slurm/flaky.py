@@ -102,8 +102,9 @@ def double_submissions(submitted, nodes, frames):
             complaints.append(Complaint("duplicated", f"{jobs} jobs have the comment {comment!r}"))
     batches = collections.Counter(frame for each in submitted for batch in each["batches"] for frame in batch)
     twice = [frame for frame, jobs in batches.items() if jobs > 1]
-    if twice:
-        complaints.append(Complaint("duplicated", f"{len(twice)} frames were in the batches of two jobs, such as {twice[:5]}"))
+    for frame in twice[:5]:
+        tasks = [f"{each['job']}_{index}" for each in submitted for index, batch in enumerate(each["batches"]) if frame in batch]
+        complaints.append(Complaint("duplicated", f"frame {frame} was in the batches of {'; '.join(map(nodes.fate, tasks))}"))
     if len(batches) != frames:
         complaints.append(Complaint("lost", f"{len(batches)} of {frames} frames were submitted"))
     return complaints

@@ -12,13 +12,20 @@ TEST(SlurmCommands, ReadsWhatTheControllerTakes) {
   const auto cluster = read_cluster(
       "Configuration data as of 2026-11-30\nMaxArraySize            = 1001\n"
       "MaxJobCount             = 10000\nMaxJobCountX = 3\n",
-      "n1|8|idle\nn2|4|mixed\nn2|4|mixed\nn3|2|down*\nn4|2|drained\nnonsense\n");
+      "n1|8|idle|main\nn2|4|mixed|main\nn2|4|mixed|night\nn3|2|down*|main\nn4|2|drained|"
+      "main\nnonsense\n");
   ASSERT_TRUE(cluster);
   EXPECT_EQ(cluster->most_tasks, 1001);
   EXPECT_EQ(cluster->most_jobs, 10000);
   EXPECT_EQ(cluster->nodes, 2) << "of those that work, each once";
   EXPECT_EQ(cluster->cpus, 4);
-  EXPECT_FALSE(read_cluster("", "n1|8|idle"));
+  const auto by_default =
+      read_cluster("MaxArraySize = 9\nMaxJobCount = 9\n",
+                   "n1|8|idle|main*\nn2|8|idle|main*\nn2|8|idle|all\nn3|1|idle|all\n");
+  ASSERT_TRUE(by_default);
+  EXPECT_EQ(by_default->nodes, 2) << "of the partition that jobs go to";
+  EXPECT_EQ(by_default->cpus, 8);
+  EXPECT_FALSE(read_cluster("", "n1|8|idle|main"));
   EXPECT_THAT(read_cluster("MaxArraySize = 0\nMaxJobCount = 5", "").error().message,
               HasSubstr("turned off"));
 }
