@@ -15,7 +15,7 @@ packages="
   blender python3 python3-jsonschema python3-numpy python3-pil python3-yaml
   libarchive-dev libboost-dev libcgal-dev libcli11-dev libdeflate-dev libdraco-dev libeigen3-dev libembree-dev libexpected-dev
   libcairo2-dev libcpp-httplib-dev libfmt-dev libjs-chart.js
-  libopencolorio-dev libopenexr-dev libopenimageio-dev libpng-dev libpugixml-dev librandom123-dev libsqlite3-dev
+  libopencolorio-dev libopenexr-dev libopenimageio-dev libpango1.0-dev libpng-dev libpugixml-dev librandom123-dev libsqlite3-dev
   libssl-dev
   libtbb-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev"

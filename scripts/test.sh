@@ -44,8 +44,9 @@ run_tests() { # preset, label, how many at once, which of them, and which not
   rm -f "$log"
 }
 
-# Tests that do a thing thousands of times over, which others do once: a sanitizer learns nothing more.
-long_anyway='^(Reliability|Install)\.|\.(Bombs|AKilledExportLeaves|EveryFaultIsRetried|NoOrderOfReports|WhatFlipsAPixel)'
+# Tests that do a thing thousands of times over, or whose path others take too: a sanitizer learns nothing more.
+long_anyway='^(Reliability|Install|RobocupScene|PartsStudy|ShippedConfigs|BenchErrorTest)\.|EveryPicture.*(jpeg|webp|tiff)'
+long_anyway="$long_anyway"'|\.(Bombs|AKilledExportLeaves|EveryFaultIsRetried|NoOrderOfReports|WhatFlipsAPixel|TheFramesBeforeAreFound|TwoConditions)'
 
 # Tests that another Blender could fail; not what follows from our own code alone.
 of_versions='^RealBlender(|Levers|Error|Instances|Twin|Color|Reading|Campaign|Region|Versions|Study)\.'

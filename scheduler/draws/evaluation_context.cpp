@@ -31,6 +31,13 @@ void EvaluationContext::report_frame(const std::string& message) {
                             copy == kNoIndex ? std::string() : fmt::format(", copy {}", copy))};
 }
 
+std::uint32_t first_attempt_of(std::uint32_t layout) {
+  constexpr std::uint32_t kRounds = 32;  // the first of them are far apart, the others in between
+  constexpr std::uint32_t kApart = 1U << 27U;
+  static_assert(kMostLayouts / kRounds * kMostAttemptsOfLayout <= kApart);
+  return layout % kRounds * kApart + layout / kRounds * kMostAttemptsOfLayout;
+}
+
 bool EvaluationContext::take_next_layout() {
   if (!crowded || *crowded == Level::kFrame || layout + 1 == kMostLayouts) return false;
   forget_error();

@@ -24,8 +24,11 @@ struct GivenValues {
   bool per_copy = false;  ///< even if it is only one
 };
 
-inline constexpr std::uint32_t kMostLayouts = 32;
-inline constexpr std::uint32_t kAttemptsOfLayout = 1U << 27U;  ///< of a draw; 32 bits hold them all
+inline constexpr std::uint32_t kMostLayouts = 256;
+inline constexpr std::uint32_t kMostAttemptsOfLayout = 1U << 12U;  ///< to place a copy
+
+/// Of a draw in a layout, in 32 bits: no two layouts share one.
+std::uint32_t first_attempt_of(std::uint32_t layout);
 
 /// Where in the campaign values are being evaluated, and what came of it. All that changes while a
 /// frame is expanded is here, so that a compiled config serves several threads.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <cairo.h>
+#include <pango/pangocairo.h>
 
 #include "base/message_text.h"
 #include "base/utf8.h"
@@ -45,8 +46,19 @@ struct Canvas::Drawing {
       cairo_surface_destroy(surface);
       throw std::bad_alloc();
     }
+    // What a desktop's settings say of fonts is not asked for.
+    cairo_font_options_t* options = cairo_font_options_create();
+    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_SLIGHT);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    layout = pango_cairo_create_layout(cairo);
+    pango_cairo_context_set_font_options(pango_layout_get_context(layout), options);
+    pango_context_set_round_glyph_positions(pango_layout_get_context(layout), FALSE);
+    pango_layout_set_single_paragraph_mode(layout, TRUE);
+    cairo_font_options_destroy(options);
   }
   ~Drawing() {
+    g_object_unref(layout);
     cairo_destroy(cairo);
     cairo_surface_destroy(surface);
   }
@@ -70,16 +82,27 @@ struct Canvas::Drawing {
     cairo_stroke(cairo);
   }
 
+  /// Pango looks for each letter in the fonts that there are.
   void set_font(const TextStyle& style) {
-    cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                           style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cairo, style.size);
+    PangoFontDescription* font = pango_font_description_new();
+    pango_font_description_set_family_static(font, "sans-serif");
+    pango_font_description_set_weight(font, style.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+    pango_font_description_set_absolute_size(font, style.size * PANGO_SCALE);
+    pango_layout_set_font_description(layout, font);
+    pango_font_description_free(font);
   }
 
   double width_of(const std::string& line) {
-    cairo_text_extents_t extents;
-    cairo_text_extents(cairo, line.c_str(), &extents);
-    return extents.x_advance;
+    pango_layout_set_text(layout, line.data(), static_cast<int>(line.size()));
+    PangoRectangle logical;
+    pango_layout_get_extents(layout, nullptr, &logical);
+    return static_cast<double>(logical.width) / PANGO_SCALE;
+  }
+
+  /// With the left end of its base line at the point that the path has come to.
+  void show(const std::string& line) {
+    pango_layout_set_text(layout, line.data(), static_cast<int>(line.size()));
+    pango_cairo_show_layout_line(cairo, pango_layout_get_line_readonly(layout, 0));
   }
 
   /// Of whole characters from the line's begin that have room together with `end`.
@@ -99,17 +122,11 @@ struct Canvas::Drawing {
 
   cairo_surface_t* surface;
   cairo_t* cairo;
+  PangoLayout* layout = nullptr;
 };
 
 Canvas::Canvas(int width, int height, const DisplayColor& background)
     : width_(width), height_(height), drawing_(std::make_unique<Drawing>(width, height)) {
-  // What a desktop's settings say of fonts is not asked for.
-  cairo_font_options_t* options = cairo_font_options_create();
-  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
-  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_SLIGHT);
-  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
-  cairo_set_font_options(drawing_->cairo, options);
-  cairo_font_options_destroy(options);
   fill({0.0, 0.0, static_cast<double>(width), static_cast<double>(height)}, background);
 }
 
@@ -204,7 +221,7 @@ void Canvas::text(const std::string& text, const CanvasPoint& at, const TextStyl
   drawing_->set_font(style);
   drawing_->set_color(style.color, 1.0);
   cairo_move_to(drawing_->cairo, at[0], at[1]);
-  cairo_show_text(drawing_->cairo, shown(text).c_str());
+  drawing_->show(shown(text));
 }
 
 Image<std::uint8_t> Canvas::image() const {

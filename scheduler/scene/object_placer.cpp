@@ -17,6 +17,7 @@ namespace seedframe {
 namespace {
 
 constexpr std::uint32_t kPlacementAttempts = 1000;
+static_assert(kPlacementAttempts <= kMostAttemptsOfLayout);
 constexpr std::uint32_t kMostCopiesInGroup = 1024;
 
 /// Draws a free place for a circle; x and y of `position` become its middle.
@@ -30,8 +31,7 @@ void scatter(const CompiledScatter& scatter, double radius,
     context.report(scatter.place, "x and y want [least, most] with least <= most");
     return;
   }
-  const std::uint32_t first =
-      scatter.level == Level::kFrame ? 0 : context.layout * kAttemptsOfLayout;
+  const std::uint32_t first = scatter.level == Level::kFrame ? 0 : first_attempt_of(context.layout);
   context.placement_attempt = first;
   auto* const record = std::exchange(context.record, nullptr);  // rejected draws would confuse
   const auto draw = [&] {
