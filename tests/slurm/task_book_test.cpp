@@ -18,7 +18,8 @@ class TaskBookTest : public ::testing::Test {
   }
   /// What squeue lists: a task of the job, with this comment.
   void list(std::int64_t job, const std::string& comment) {
-    ASSERT_TRUE(book_.find_jobs({{.job = job, .index = 0, .waits = true, .comment = comment}}));
+    const QueuedTask task{job, /*index=*/0, /*waits=*/true, /*node=*/"", comment};
+    ASSERT_TRUE(book_.find_jobs({task}));
   }
 
   const ScratchFolder scratch_;
