@@ -26,6 +26,7 @@ from .program import error_of, find_program
 PROTOCOL = 1
 _LOOK_AFTER_MS = 1000  # whether the program still runs, should anybody else hold its pipes open
 _END_S = 10.0  # that the program may take to end when it is asked to
+_FILES_GO_FIRST_S = 1.0  # from when an ending program's files are closed until it has ended
 
 
 _channels: weakref.WeakSet[Channel] = weakref.WeakSet()
@@ -297,6 +298,8 @@ class Channel:
                     arrays = entry.place[0].place(entry.place[1], layout) if entry.place else map_file(layout)
                 result = entry.make(message, arrays)
             except Exception as why:
+                if layout and not os.path.exists(layout["path"]) and self._has_ended():
+                    return  # its files went with it: this request fails with all that are open
                 error = why
             if layout:
                 self._send(json.dumps({"release": number}))
@@ -305,6 +308,13 @@ class Channel:
             del self._open[number]
             self._room.notify()
         settle(entry, result, error)
+
+    def _has_ended(self) -> bool:
+        try:
+            self._process.wait(_FILES_GO_FIRST_S)
+        except subprocess.TimeoutExpired:
+            return False
+        return True
 
     def _end(self, trouble: Error | None) -> None:
         """The program has ended, or is not understood: all that is open fails."""
