@@ -45,7 +45,7 @@ run_tests() { # preset, label, how many at once, which of them, and which not
 }
 
 # Tests that do a thing thousands of times over, or whose path others take too: a sanitizer learns nothing more.
-long_anyway='^(Reliability|Install|RobocupScene|PartsStudy|ShippedConfigs|BenchErrorTest)\.|EveryPicture.*(jpeg|webp|tiff)'
+long_anyway='^python_package$|^(Reliability|Install|RobocupScene|PartsStudy|ShippedConfigs|BenchErrorTest)\.|EveryPicture.*(jpeg|webp|tiff)'
 long_anyway="$long_anyway"'|\.(Bombs|AKilledExportLeaves|EveryFaultIsRetried|NoOrderOfReports|WhatFlipsAPixel|TheFramesBeforeAreFound|TwoConditions)'
 
 # Tests that another Blender could fail; not what follows from our own code alone.

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/files.h"
+#include "draws/evaluation_context.h"
 #include "tests/scene/scene_fixture.h"
 
 namespace seedframe {
@@ -38,6 +40,30 @@ TEST(Layout, AScatterThatFoundNoPlaceIsLaidOutAnewAlikeInAllFramesOfAScene) {
                 other_view->spec.instances[i].camera_from_object.matrix());
     }
   }
+}
+
+TEST(Layout, NoTwoLayoutsShareDraws) {
+  std::set<std::uint32_t> firsts;
+  for (std::uint32_t i = 0; i < kMostLayouts; ++i) firsts.insert(first_attempt_of(i));
+  ASSERT_EQ(firsts.size(), kMostLayouts);
+  std::uint32_t before = *firsts.begin();
+  EXPECT_EQ(before, 0U);
+  for (auto first = std::next(firsts.begin()); first != firsts.end(); before = *first++) {
+    EXPECT_GE(*first - before, kMostAttemptsOfLayout);
+  }
+  EXPECT_LE(before, 0U - kMostAttemptsOfLayout);
+  EXPECT_EQ(first_attempt_of(31), 31U << 27U) << "as they were when there were 32";
+}
+
+// One of the demo's scenes, of which one in thousands is so full.
+TEST(Layout, AFullSceneIsLaidOutUntilAllHavePlaces) {
+  const std::filesystem::path file = kHome / "configs" / "parts.yaml";
+  constexpr std::int64_t kScene = 18186, kFramesPerScene = 5;
+  std::string text = *read_file(file);
+  text.replace(text.find("scenes: 6"), 9, "scenes: " + std::to_string(kScene + 1));
+  const auto expander = expander_of(text, file);
+  ASSERT_TRUE(expander) << expander.error().message;
+  EXPECT_GT(frame_of(*expander, kScene * kFramesPerScene).spec.instances.size(), 15U);
 }
 
 TEST(Layout, AFramesOwnScatterThatFoundNoPlaceIsAnotherAttemptAtTheFrame) {
