@@ -124,9 +124,11 @@ void examine_home(Findings& findings) {
   }
   const auto materials = MaterialLibrary::open({home / "materials"}, {});
   if (materials) {
-    findings.good("materials", fmt::format("{} built in, {} of them with textures",
-                                           materials->material_names().size(),
-                                           materials->texture_set_names().size()));
+    const auto& all = materials->materials();
+    const auto textured = std::count_if(
+        all.begin(), all.end(), [](const auto& m) { return m.second.textures.has_value(); });
+    findings.good("materials",
+                  fmt::format("{} built in, {} of them with textures", all.size(), textured));
   } else {
     findings.bad("materials", materials.error().message);
   }

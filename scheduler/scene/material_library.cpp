@@ -98,6 +98,7 @@ Result<MaterialLibrary> MaterialLibrary::open(const std::vector<fs::path>& folde
     if (Status added = library.add_folder(folder); !added) return forward_error(added);
   }
   for (const auto& [name, set] : library.texture_sets_) {
+    if (set.is_decal) continue;
     MaterialConfig material = plain_material(name);
     for (NumberSource& c : material.base_color.components) c = number_constant(1.0);
     material.textures = NameSource{{}, {{name, number_constant(1.0)}}};
@@ -123,15 +124,17 @@ Status MaterialLibrary::add_folder(const fs::path& folder) {
   }
   for (const fs::path& entry : sorted_entries(folder)) add_texture_set(entry);
   for (const fs::path& entry : sorted_entries(folder / "textures")) add_texture_set(entry);
+  for (const fs::path& entry : sorted_entries(folder / "decals")) add_texture_set(entry, true);
   for (const fs::path& entry : sorted_entries(folder / "hdri")) {
     add_hdri(entry);
   }
   return {};
 }
 
-void MaterialLibrary::add_texture_set(const fs::path& folder) {
+void MaterialLibrary::add_texture_set(const fs::path& folder, bool is_decal) {
   TextureSet set;
   set.name = folder.filename().string();
+  set.is_decal = is_decal;
   std::vector<fs::path> files = sorted_entries(folder);
   std::stable_partition(files.begin(), files.end(), [](const fs::path& file) {
     const std::optional<ImageKind> kind = image_kind_of(file);
@@ -158,6 +161,9 @@ void MaterialLibrary::add_hdri(const fs::path& file) {
 std::string MaterialLibrary::no_material(const std::string& name) const {
   const auto unread = unread_colors_.find(name);
   if (unread != unread_colors_.end()) return no_texture_set(name);
+  if (texture_sets_.contains(name)) {
+    return "'" + name + "' is a decal, no material: name it in the `textures` of one";
+  }
   return "there is no material '" + name + "'" + did_you_mean(name, material_names());
 }
 

@@ -23,21 +23,23 @@ namespace seedframe {
 struct TextureSet {
   std::string name;
   std::map<std::string, std::filesystem::path>
-      files;  ///< "color", "roughness", "normal", "metallic", "alpha"
+      files;              ///< "color", "roughness", "normal", "metallic", "alpha"
+  bool is_decal = false;  ///< a print, such as a number: no surface to make anything of
 };
 
 class MaterialLibrary {
  public:
   /// Reads <folder>/library.yaml where it exists, and takes each folder <folder>/<name>/ or
-  /// <folder>/textures/<name>/ that has a colour file for a texture set. What `own` names comes
-  /// before the library's; an earlier folder comes before a later one. Files lie in one of the
-  /// folders or in an allowed one, also after symbolic links are followed: for a library.yaml that
-  /// is checked here, for images by whoever opens them.
+  /// <folder>/textures/<name>/ that has a colour file for a texture set, and
+  /// <folder>/decals/<name>/ for one that is a decal. What `own` names comes before the library's;
+  /// an earlier folder comes before a later one. Files lie in one of the folders or in an allowed
+  /// one, also after symbolic links are followed: for a library.yaml that is checked here, for
+  /// images by whoever opens them.
   static Result<MaterialLibrary> open(const std::vector<std::filesystem::path>& folders,
                                       const std::vector<MaterialConfig>& own,
                                       AllowedFolders allowed = {});
 
-  /// Each by its name; a texture set is a material too, plain but for its textures.
+  /// Each by its name; a texture set is a material too, plain but for its textures. A decal is not.
   const std::map<std::string, MaterialConfig>& materials() const { return materials_; }
   const std::map<std::string, TextureSet>& texture_sets() const { return texture_sets_; }
   std::vector<std::string> material_names() const;
@@ -56,7 +58,7 @@ class MaterialLibrary {
 
  private:
   Status add_folder(const std::filesystem::path& folder);
-  void add_texture_set(const std::filesystem::path& folder);
+  void add_texture_set(const std::filesystem::path& folder, bool is_decal = false);
   void add_hdri(const std::filesystem::path& file);
 
   AllowedFolders allowed_;

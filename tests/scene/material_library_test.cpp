@@ -127,6 +127,21 @@ TEST_F(MaterialFolder, ASetWhoseOnlyFaultIsItsEndingSaysSo) {
   EXPECT_THAT(all.no_hdri("skies"), HasSubstr("there is no environment map 'skies'"));
 }
 
+TEST_F(MaterialFolder, DecalsAreForTheTexturesOfMaterialsAndNoMaterials) {
+  add("textures/Wood/Wood_Color.png");
+  add("decals/Logo/Logo_Color.png");
+  const MaterialLibrary all = library();
+  EXPECT_THAT(all.texture_set_names(), ElementsAre("Logo", "Wood"));
+  EXPECT_THAT(all.material_names(), ElementsAre("Wood", "default"));
+  EXPECT_EQ(all.no_material("Logo"),
+            "'Logo' is a decal, no material: name it in the `textures` of one");
+  const std::string cube = "categories: [c]\nobjects: {o: {asset: cube, category: c, material: ";
+  EXPECT_THAT(offered(cube + "{realistic_share: 1}}}\n"),
+              ElementsAre(Pair("Wood_Color.png", ImageUse::kColor)));
+  EXPECT_THAT(offered(cube + "sign}}\nmaterials: {sign: {textures: Logo}}\n"),
+              ElementsAre(Pair("Logo_Color.png", ImageUse::kColor)));
+}
+
 TEST_F(MaterialFolder, OnlyImagesThatCanBeDrawnAreOffered) {
   for (const char* set : {"A", "B", "C"}) {
     add(std::string(set) + "/" + set + "_Color.png");

@@ -36,10 +36,18 @@ Image<float> pixels_of(const fs::path& file) {
   return std::move(*image);
 }
 
+/// Those that are no decals.
+std::map<std::string, TextureSet> surfaces_of(const MaterialLibrary& library) {
+  std::map<std::string, TextureSet> surfaces = library.texture_sets();
+  std::erase_if(surfaces, [](const auto& entry) { return entry.second.is_decal; });
+  return surfaces;
+}
+
 TEST(ShippedMaterials, AreMoreThanAHundredAndEachHasASizeInMetres) {
   const MaterialLibrary library = shipped_library();
-  EXPECT_EQ(library.texture_sets().size(), 102U);
-  for (const auto& [name, set] : library.texture_sets()) {
+  const auto surfaces = surfaces_of(library);
+  EXPECT_EQ(surfaces.size(), 102U);
+  for (const auto& [name, set] : surfaces) {
     const auto material = library.materials().find(name);
     ASSERT_NE(material, library.materials().end()) << name;
     ASSERT_TRUE(material->second.texture_size_m) << name << " has no texture_size_m";
@@ -49,7 +57,7 @@ TEST(ShippedMaterials, AreMoreThanAHundredAndEachHasASizeInMetres) {
 TEST(ShippedMaterials, HaveColorRoughnessAndNormalAndMetalsSayHowMetallicTheyAre) {
   const MaterialLibrary library = shipped_library();
   int with_metallic = 0;
-  for (const auto& [name, set] : library.texture_sets()) {
+  for (const auto& [name, set] : surfaces_of(library)) {
     for (const char* role : {"color", "roughness", "normal"}) {
       EXPECT_THAT(set.files, Contains(Key(role))) << name;
     }
@@ -89,7 +97,7 @@ Seam seam_of(const Image<float>& image, bool rows) {
 TEST(ShippedMaterials, RepeatWithoutASeam) {
   constexpr double kEncoding = 0.012;  // of JPEG, whose blocks do not know of the next tile
   const MaterialLibrary library = shipped_library();
-  for (const auto& [name, set] : library.texture_sets()) {
+  for (const auto& [name, set] : surfaces_of(library)) {
     for (const auto& [role, file] : set.files) {
       const Image<float> image = pixels_of(file);
       EXPECT_GE(image.width, 256) << file;
@@ -114,7 +122,7 @@ TEST(ShippedMaterials, TheSeamThatIsLookedForIsFound) {
 
 TEST(ShippedMaterials, NormalsPointOutwards) {
   const MaterialLibrary library = shipped_library();
-  for (const auto& [name, set] : library.texture_sets()) {
+  for (const auto& [name, set] : surfaces_of(library)) {
     const Image<float> image = pixels_of(set.files.at("normal"));
     ASSERT_GE(image.channels, 3) << name;
     double x = 0.0, y = 0.0, least_z = 1.0;
@@ -153,7 +161,7 @@ TEST(ShippedMaterials, ADownloadedFolderOfCcTexturesDropsInBesideThem) {
   auto library = MaterialLibrary::open({scratch.path() / "cctextures", kHome / "materials"},
                                        config->materials);
   ASSERT_TRUE(library) << library.error().message;
-  EXPECT_EQ(library->texture_sets().size(), 105U);
+  EXPECT_EQ(surfaces_of(*library).size(), 105U);
   auto expander = SceneExpander::compile(*config, built_in_assets(), *library);
   ASSERT_TRUE(expander) << expander.error().message;
   std::set<std::string> drawn;
