@@ -4,11 +4,12 @@ import math
 
 from mathutils import Matrix
 
-from make_assets_forms import egg, grouped, loft, painted, posed, spline, sweep
+from make_assets_forms import boxed, egg, grouped, loft, painted, posed, spline, sweep
 from make_assets_shapes import arc, common, extrude, lathe, moved, rounded_rectangle, turned
 
-SHELL, JOINT, ACCENT, EYE = range(4)
-ROBOT_SLOTS = ('shell', 'joint', 'accent', 'eye')
+SHELL, JOINT, ACCENT, EYE, NUMBER = range(5)
+UV_UNIT = 100.0  # make_assets.py's MM_PER_UV_UNIT
+ROBOT_SLOTS = ('shell', 'joint', 'accent', 'eye', 'number')
 
 # Distances between the joints, from the chest's origin between the shoulder blades.
 NECK_Z = 126.0
@@ -52,8 +53,8 @@ class Body:
     def __init__(self):
         self.pieces = []
 
-    def add(self, frame, slot, mesh):
-        self.pieces.append(posed(painted(mesh, slot), frame))
+    def add(self, frame, slot, mesh, uv_of=boxed):
+        self.pieces.append(posed(painted(mesh, slot, uv_of), frame))
 
 
 def head(body, frame):
@@ -94,20 +95,33 @@ PELVIS = [(-122.0, 0.0, 0.0, 22.0, 24.0, 17.0, 2.3), (-104.0, 0.0, 0.0, 35.0, 36
 
 def torso(body, frame):
     body.add(frame, SHELL, loft(CHEST, (6.0, 10.0), 40))
-    # The jersey covers all but a collar and the waist.
-    body.add(frame, ACCENT, loft(CHEST, (2.5, 2.5), 40, grow=2.4, between=(-34.0, 106.0)))
+    # The jersey covers all but a collar and the waist, and has its number on the chest and on the back.
+    body.add(frame, ACCENT, jersey(2.4))
+    number(body, frame, 1.0, 62.0, 11.0)
+    number(body, frame, -1.0, 80.0, 40.0)
     waist = [(-64.0, 1.0, 0.0, 38.0, 36.0, 44.0, 2.4), (-40.0, 2.0, 0.0, 38.0, 36.0, 40.0, 2.4)]
     body.add(frame, JOINT, loft(waist, (2.0, 2.0), 28))
     body.add(frame, SHELL, loft(PELVIS, (8.0, 7.0), 36))
     collar = frame @ at(-2.0, 0.0, 116.0)
     body.add(collar, JOINT, lathe([(0.0, -6.0), (32.0, -6.0)] + arc((29.0, 3.0), 3.0, 0.0, 90.0, 4)
                                   + [(0.0, 6.0)], 28))
-    # The button, and a hatch on the back.
     button = frame @ at(54.0, 0.0, 62.0)
     body.add(button, SHELL, ring(8.0, 12.5, 6.5, 2.0))
     body.add(button, EYE, disc(8.2, 5.0, 1.5))
-    hatch = turned(turned(extrude(rounded_rectangle(72.0, 54.0, 9.0), 0.0, 8.0, 2.0), 90.0, 'X'), -90.0, 'Z')
-    body.add(frame @ at(-44.0, 0.0, 60.0), SHELL, hatch)
+
+
+def jersey(grow):
+    return loft(CHEST, (2.5, 2.5), 40, grow=grow, between=(-34.0, 106.0))
+
+
+def number(body, frame, facing, side, z):
+    """A square of cloth on the jersey, which one image of a material covers. facing: 1 chest, -1 back."""
+    plate = turned(turned(extrude(rounded_rectangle(side, side, 9.0), 30.0, 90.0), 90.0, 'X'), facing * 90.0, 'Z')
+
+    def uv_of(point, _normal, _middle):
+        return tuple(UV_UNIT * (0.5 + across / side) for across in (facing * point.y, point.z - z))
+
+    body.add(frame, NUMBER, common(jersey(3.2), moved(plate, z=z)), uv_of)
 
 
 def arm(body, chest, side, shoulder_pitch, shoulder_roll, elbow_yaw, elbow):

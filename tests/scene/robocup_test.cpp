@@ -2,6 +2,7 @@
 // constraints, and what stands where in them.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -283,6 +284,63 @@ TEST(RobocupPlaces, PostsAreAClassOfTheirOwn) {
   EXPECT_EQ(of_category[4], (Assets{{"spl_goal", 2}}));
   EXPECT_EQ(of_category[5], (Assets{{"spl_lines", 1}}));
   EXPECT_EQ(of_category[6], (Assets{{"spl_field", 1}}));
+}
+
+std::size_t slot_of(const Mesh& mesh, const std::string& name) {
+  const auto found = std::find(mesh.slot_names.begin(), mesh.slot_names.end(), name);
+  EXPECT_NE(found, mesh.slot_names.end()) << name;
+  return static_cast<std::size_t>(found - mesh.slot_names.begin());
+}
+
+TEST(RobocupJerseys, HaveTheNumbers1To5EachAsOften) {
+  constexpr int kFrames = 200;
+  auto expander = robocup(kFrames, 1);
+  ASSERT_TRUE(expander) << expander.error().message;
+  const auto asset = built_in_assets().load("robot_standing");
+  ASSERT_TRUE(asset);
+  const std::size_t slot = slot_of((*asset)->mesh, "number");
+  std::map<std::string, double> robots_with;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const FrameSpec spec = frame_of(*expander, frame).spec;
+    for (const InstanceSpec& instance : spec.instances) {
+      if (!instance.name.starts_with("robots/")) continue;
+      const auto material = static_cast<std::size_t>(instance.materials.at(slot));
+      robots_with[spec.materials.at(material).textures.at("color")] += 1.0;
+    }
+  }
+  std::vector<double> counts;
+  for (const auto& [image, count] : robots_with) counts.push_back(count);
+  ASSERT_EQ(counts.size(), 5U);
+  EXPECT_GT(chi_squared_p(counts, std::vector<double>(5, 9.0 * kFrames / 5)), kLeastLawP);
+}
+
+TEST(RobocupJerseys, ANumberFillsItsSquareOnChestAndBackAndIsNotMirrored) {
+  const auto asset = built_in_assets().load("robot_standing");
+  ASSERT_TRUE(asset);
+  const Mesh& mesh = (*asset)->mesh;
+  const std::size_t slot = slot_of(mesh, "number");
+  for (const double facing : {1.0, -1.0}) {
+    // Who faces the chest sees the robot's left on the right.
+    std::array<std::map<float, double>, 2> places;  // of u and v
+    for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+      if (mesh.triangle_slots[triangle] != slot) continue;
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const auto& at = mesh.positions[mesh.triangles[triangle][corner]];
+        if (facing * at[0] < 0.0) continue;
+        const std::array<float, 2>& uv = mesh.corner_uvs[3 * triangle + corner];
+        places[0][uv[0]] = facing * at[1];
+        places[1][uv[1]] = at[2];
+      }
+    }
+    for (const std::map<float, double>& place_of_uv : places) {
+      ASSERT_FALSE(place_of_uv.empty());
+      const auto least = place_of_uv.begin();
+      const auto most = place_of_uv.rbegin();
+      EXPECT_NEAR(least->first, 0.0, 0.01);
+      EXPECT_NEAR(most->first, 1.0, 0.01);
+      EXPECT_NEAR(most->second - least->second, facing > 0.0 ? 0.062 : 0.08, 1e-3);
+    }
+  }
 }
 
 TEST(RobocupNesting, EachPhotometricSampleHasItsGeometricSamples) {
