@@ -2,13 +2,13 @@
 # The benchmarks, into results/: how fast configs are expanded, what the twin costs and where it agrees with Cycles, what submit costs above
 # a bare loop in Blender, a worker's memory over 1,000 frames, how fast annotations are written, how large a report is and how soon it can be used, what a large store costs, how fast an audit reads,
 # how long the program takes to start, how many frames an hour all of it makes beside BlenderProc, what a second of rendering buys,
-# whether a stated error is kept, what pictures of single objects cost, how costs grow with a scene, whether forecasts come true,
+# whether a stated error is kept, how much frames sparkle, what pictures of single objects cost, how costs grow with a scene, whether forecasts come true,
 # how a campaign grows with the nodes of a Slurm cluster,
 # and what a detector that learns from the frames makes of their samples. Takes about two and a half hours
 # on two idle cores; on a busy machine longer, and then it measures the company.
 #
 #   scripts/bench.sh               all
-#   scripts/bench.sh NAME…         of error, quality, patches, scaling, forecast, expansion, twin, frame, stability, overhead, memory, export, report, store, audit, startup,
+#   scripts/bench.sh NAME…         of error, quality, fireflies, patches, scaling, forecast, expansion, twin, frame, stability, overhead, memory, export, report, store, audit, startup,
 #                                  determinism, throughput, slurm, stream, detector
 #   scripts/bench.sh detector-full the whole of results/detector, an hour, in place of a short version
 #   scripts/bench.sh quick         most of them, cut down to ten minutes in all, into build/quick/: does a change show?
@@ -33,7 +33,7 @@ if [ "${1:-}" = quick ]; then
   build/release/seedframe bench error configs/parts.yaml -o $quick/error --width 96 --frames 1 --budget 60s || failed=1
   exit $failed
 fi
-[ $# -gt 0 ] || set -- error quality patches scaling forecast expansion twin frame stability overhead memory export report store audit startup determinism throughput slurm stream detector
+[ $# -gt 0 ] || set -- error quality fireflies patches scaling forecast expansion twin frame stability overhead memory export report store audit startup determinism throughput slurm stream detector
 failed=0
 for name in "$@"; do
   case $name in
@@ -60,6 +60,7 @@ for name in "$@"; do
     forecast) tests/bench/forecast.py --report results/bench/forecast.md ;;
     scaling) tests/bench/scaling.py --largest-mesh 4000000 --report results/scaling ;;
     quality) tests/bench/quality.py --errors results/quality/errors.json --report results/quality/quality.md ;;
+    fireflies) tests/bench/fireflies.py --report results/scenes/fireflies.md ;;  # 20 minutes
     stream) tests/bench/stream.py --report results/bench/stream.md ;;
     startup) tests/bench/startup.py --report results/bench/startup.md ;;
     throughput) tests/bench/throughput.py --report results/bench/throughput.md ;;
