@@ -25,7 +25,7 @@ HOME = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = HOME / "build" / "release" / "seedframe"
 MOST_BYTES = 50e6
 MOST_READY_MS = 2000
-BESIDE = 20_500  # frames, of a campaign whose thumbnails are in a folder
+BESIDE = 100_000  # frames, of a campaign whose thumbnails are in a folder
 PICTURES = HOME / "docs" / "images" / "demo.jpg"
 LONGER_SIDE = 100  # pixels of a thumbnail in a page with 10,000 of them
 
