@@ -36,7 +36,7 @@ TEST_F(PinnedDataset, LabelsOfTheParts) {
 TEST_F(PinnedDataset, LabelsOfTheRobocupScene) {
   label("robocup_spl.yaml");
   EXPECT_EQ(hash_of("c/frames"),
-            "bd5bd607819af2b424f55d5a1786ff0f479aca5e8ef7c8032244133bd60da3b4");
+            "afa8865ae7f8a74b059b37d12492a5efe770b37459ffaa1f9bd0ced7764f8d07");
 }
 
 TEST_F(PinnedDataset, LabelsOfTheTyolScene) {
