@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A contact sheet of exported patches: a row for each class, its patches as they come.
 
-    scripts/patch_sheet.py EXPORTS results/scenes/robocup_patches.jpg [COLUMNS]
+    scripts/patch_sheet.py results/scenes/robocup_patches.jpg EXPORTS…
 """
 
 import json
@@ -10,20 +10,20 @@ import sys
 
 from PIL import Image, ImageDraw
 
-CELL, GAP, NAMES = 64, 3, 84  # pixels
+COLUMNS, CELL, GAP, NAMES = 20, 64, 3, 84  # all but the first in pixels
 
 
 def main():
-    folder, out = pathlib.Path(sys.argv[1]) / "patches", sys.argv[2]
-    columns = int(sys.argv[3]) if len(sys.argv) > 3 else 20
-    classes = json.loads((folder / "classes.json").read_text())
-    sheet = Image.new("RGB", (NAMES + columns * (CELL + GAP), len(classes) * (CELL + GAP)), "white")
+    out, folders = sys.argv[1], [pathlib.Path(name) / "patches" for name in sys.argv[2:]]
+    classes = json.loads((folders[0] / "classes.json").read_text())
+    sheet = Image.new("RGB", (NAMES + COLUMNS * (CELL + GAP), len(classes) * (CELL + GAP)), "white")
     pen = ImageDraw.Draw(sheet)
     for row, each in enumerate(classes):
         y = row * (CELL + GAP)
-        found = sorted(folder.glob(f"*/{each['folder']}/*.png"))
+        found = [file for folder in folders for file in sorted(folder.glob(f"*/{each['folder']}/*.png"))]
         pen.text((4, y + CELL // 2 - 12), f"{each['name']}\n{len(found)}", fill="black")
-        for column, file in enumerate(found[:: max(1, len(found) // columns)][:columns]):
+        shown = [found[i * len(found) // COLUMNS] for i in range(COLUMNS)] if len(found) > COLUMNS else found
+        for column, file in enumerate(shown):
             patch = Image.open(file).convert("RGB").resize((CELL, CELL), Image.Resampling.NEAREST)
             sheet.paste(patch, (NAMES + column * (CELL + GAP), y))
     sheet.save(out, quality=85, optimize=True)

@@ -48,7 +48,7 @@ def allowed_above(reference):
 
 
 def render(options, scene, samples, settings, campaign):
-    """The luminance of each frame, and CPU seconds for all."""
+    """The luminance of each frame, and how long workers took for all."""
     command = [options.program, "submit", HOME / "configs" / f"{scene}.yaml", "-o", campaign, "--quiet", "--blender",
                options.blender, "--threads", "1"]
     for setting in (f"render.samples={samples}", f"render.width={options.width}", f"render.height={options.width * 3 // 4}",
@@ -63,7 +63,7 @@ def render(options, scene, samples, settings, campaign):
 
 def rows_of(options, scene, folder):
     references, seconds = render(options, scene, options.reference, (), folder / f"{scene}-reference")
-    print(f"{scene}: reference in {seconds:.0f} CPU s", file=sys.stderr, flush=True)
+    print(f"{scene}: reference in {seconds:.0f} s", file=sys.stderr, flush=True)
     allowed = [allowed_above(reference) for reference in references]
     for index, (name, settings) in enumerate(VARIANTS):
         pictures, seconds = render(options, scene, options.samples, settings, folder / f"{scene}-{index}")
@@ -71,7 +71,7 @@ def rows_of(options, scene, folder):
         outstanding = max(float((picture / limit).max()) for picture, limit in zip(pictures, allowed))
         darker = numpy.mean([picture.mean() / reference.mean() - 1 for picture, reference in zip(pictures, references)])
         pixels = sum(picture.size for picture in pictures)
-        print(f"{scene}, {name}: {counts} in {seconds:.0f} CPU s", file=sys.stderr, flush=True)
+        print(f"{scene}, {name}: {counts} in {seconds:.0f} s", file=sys.stderr, flush=True)
         yield (f"| `{scene}` | {name} | {', '.join(map(str, counts))} | {1e6 * sum(counts) / pixels:.0f} | "
                f"{f'{outstanding:.1f} ×' if outstanding > 1 else ''} | {100 * darker:+.1f} % |")
 
