@@ -118,7 +118,7 @@ Result<LockedCampaign> create_campaign(const fs::path& folder, PreparedCampaign&
     return tl::unexpected(Error{full ? cause.kind : ErrorKind::kInput, cause.message});
   };
   if (Status made = make_folders(folder); !made) return not_possible(made.error());
-  Result<CampaignLock> lock = CampaignLock::acquire(files.lock());
+  Result<FolderLock> lock = FolderLock::acquire(files.lock());
   if (!lock) return forward_error(lock);
   if (Status possible = check_new_campaign(folder); !possible) return forward_error(possible);
   if (Status cleared = clear_unfinished(files); !cleared) return forward_error(cleared);

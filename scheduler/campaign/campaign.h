@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "campaign/campaign_lock.h"
+#include "base/folder_lock.h"
 #include "frames/campaign_files.h"
 #include "frames/manifest.h"
 #include "render/frame_job.h"
@@ -22,7 +22,7 @@ struct Campaign {
 /// A campaign that no other process may work on.
 struct LockedCampaign {
   Campaign campaign;
-  CampaignLock lock;
+  FolderLock lock;
 };
 
 /// Whether create_campaign could begin there now; see there.

@@ -59,7 +59,7 @@ Status clear_for_new_campaign(const fs::path& folder, bool yes) {
     return fail(ErrorKind::kInput, "{} holds what no campaign has ({}): move it away first",
                 folder.string(), fmt::join(strange, ", "));
   }
-  const Result<CampaignLock> lock = CampaignLock::acquire(files.lock());
+  const Result<FolderLock> lock = FolderLock::acquire(files.lock());
   if (!lock) return forward_error(lock);
   if (!yes) {
     if (Status agreed = confirm(what_is_there(folder), folder); !agreed) return agreed;

@@ -140,7 +140,7 @@ void tell_of_tasks(const CampaignFiles& files) {
 int resume(ResumeArguments arguments) {
   Result<Campaign> campaign = open_campaign(arguments.folder);
   if (!campaign) return report(campaign.error());
-  const Result<CampaignLock> lock = CampaignLock::acquire(campaign->files.lock());
+  const Result<FolderLock> lock = FolderLock::acquire(campaign->files.lock());
   if (!lock) return report(lock.error());
   const Result<std::vector<Override>> set = read_overrides(arguments.set);
   if (!set) return report(set.error());

@@ -8,13 +8,13 @@
 
 #include "base/cores.h"
 #include "base/files.h"
+#include "base/machine_folder.h"
 #include "cli/verb.h"
 #include "console/arguments.h"
 #include "console/exit_code.h"
 #include "console/home.h"
 #include "console/run_options.h"
 #include "console/say.h"
-#include "slurm/node_folder.h"
 #include "stream/frame_maker.h"
 #include "stream/stream_server.h"
 
@@ -73,11 +73,11 @@ Result<PreparedCampaign> prepare_stream(const StreamArguments& arguments,
 }
 
 int stream(const StreamArguments& arguments) {
-  const Result<NodeFolder> machine = NodeFolder::open({});
+  const Result<MachineFolder> machine = MachineFolder::open({});
   if (!machine) return report(machine.error());
-  const Result<NodeFolder::Task> own = machine->make_task();
+  const Result<MachineFolder::Own> own = machine->make_own();
   if (!own) return report(own.error());
-  const std::filesystem::path folder = own->campaign();
+  const std::filesystem::path folder = own->folder();
   if (Status made = make_folders(folder); !made) return report(made.error());
   const Result<PreparedCampaign> prepared = prepare_stream(arguments, folder);
   if (!prepared) return report(prepared.error());

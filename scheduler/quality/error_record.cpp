@@ -89,7 +89,7 @@ bool is_of(const RecordedError& recorded, const FrameRow& row) {
 }
 
 Status keep_errors(Campaign& campaign, const ErrorCheck& check) {
-  const Result<CampaignLock> lock = CampaignLock::acquire(campaign.files.lock());
+  const Result<FolderLock> lock = FolderLock::acquire(campaign.files.lock());
   if (!lock) return forward_error(lock);
   Result<ErrorRecord> record = read_error_record(campaign);
   if (!record) return forward_error(record);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "campaign/campaign_lock.h"
+#include "base/folder_lock.h"
 #include "campaign/input_files.h"
 #include "campaign/provenance.h"
 
@@ -60,7 +60,7 @@ Result<CampaignStatus> read_status(const Campaign& campaign, double now) {
   if (!touched) return forward_error(touched);
   status.inputs_touched = std::move(*touched);
   status.cluster = read_cluster_state(campaign.files);
-  const auto lock = CampaignLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0));
+  const auto lock = FolderLock::acquire(campaign.files.lock(), std::chrono::milliseconds(0));
   status.running = !lock && lock.error().kind == ErrorKind::kInput;  // held, not out of reach
   if (status.running) {
     const auto progress = campaign.store.run_progress();

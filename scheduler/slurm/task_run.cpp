@@ -6,11 +6,11 @@
 
 #include "base/clock.h"
 #include "base/files.h"
+#include "base/machine_folder.h"
 #include "campaign/campaign_runner.h"
 #include "campaign/drain_signals.h"
 #include "scene/prepared_campaign.h"
 #include "slurm/delivery.h"
-#include "slurm/node_folder.h"
 #include "slurm/submission.h"
 #include "slurm/task_frame.h"
 
@@ -52,8 +52,8 @@ class Task {
   Result<bool> run();
 
  private:
-  Result<PreparedCampaign> prepare_frames(const NodeFolder& node) const;
-  Result<RunSetup> set_up(const CampaignSettings& settings, const NodeFolder& node) const;
+  Result<PreparedCampaign> prepare_frames(const MachineFolder& node) const;
+  Result<RunSetup> set_up(const CampaignSettings& settings, const MachineFolder& node) const;
   const std::vector<std::int64_t>& frames() const {
     return submission_.batches[static_cast<std::size_t>(order_.batch)];
   }
@@ -64,7 +64,7 @@ class Task {
   double started_ = unix_time();
 };
 
-Result<PreparedCampaign> Task::prepare_frames(const NodeFolder& node) const {
+Result<PreparedCampaign> Task::prepare_frames(const MachineFolder& node) const {
   CampaignSource source = submission_.source;
   source.copies = node.assets();
   Result<PreparedCampaign> prepared = prepare(std::move(source));
@@ -73,7 +73,7 @@ Result<PreparedCampaign> Task::prepare_frames(const NodeFolder& node) const {
   return prepared;
 }
 
-Result<RunSetup> Task::set_up(const CampaignSettings& settings, const NodeFolder& node) const {
+Result<RunSetup> Task::set_up(const CampaignSettings& settings, const MachineFolder& node) const {
   Result<RunOptions> options = options_of_tasks(submission_.run, files_.submission().string());
   if (!options) return forward_error(options);
   options->cores = order_.cpus;
@@ -88,16 +88,16 @@ Result<RunSetup> Task::set_up(const CampaignSettings& settings, const NodeFolder
 }
 
 Result<bool> Task::run() {
-  const Result<NodeFolder> node = NodeFolder::open(submission_.node_folder);
+  const Result<MachineFolder> node = MachineFolder::open(submission_.node_folder);
   if (!node) return forward_error(node);
   Result<PreparedCampaign> prepared = prepare_frames(*node);
   if (!prepared) return forward_error(prepared);
   const Result<RunSetup> setup = set_up(prepared->settings, *node);
   if (!setup) return forward_error(setup);
-  const Result<NodeFolder::Task> own = node->make_task();
+  const Result<MachineFolder::Own> own = node->make_own();
   if (!own) return forward_error(own);
   UsedFiles used;
-  Result<Campaign> campaign = create_scratch_campaign(own->campaign(), frames(), *prepared, used);
+  Result<Campaign> campaign = create_scratch_campaign(own->folder(), frames(), *prepared, used);
   if (!campaign) return forward_error(campaign);
   std::vector<PendingFrame> pending;
   for (const std::int64_t frame : frames()) {

@@ -1,4 +1,4 @@
-#include "campaign/campaign_lock.h"
+#include "base/folder_lock.h"
 
 #include <cerrno>
 #include <cstring>
@@ -10,8 +10,8 @@
 
 namespace seedframe {
 
-Result<CampaignLock> CampaignLock::acquire(const std::filesystem::path& file,
-                                           std::chrono::milliseconds patience) {
+Result<FolderLock> FolderLock::acquire(const std::filesystem::path& file,
+                                       std::chrono::milliseconds patience) {
   // Through a link, a file would be made or locked wherever somebody wants it.
   const int descriptor =
       ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
@@ -21,7 +21,7 @@ Result<CampaignLock> CampaignLock::acquire(const std::filesystem::path& file,
   if (std::filesystem::exists(what) && !std::filesystem::is_regular_file(what)) {
     if (descriptor >= 0) ::close(descriptor);
     return fail(ErrorKind::kInput,
-                "{} is not a plain file, as a campaign's lock is: remove it, and try again",
+                "{} is not a plain file, as a folder's lock is: remove it, and try again",
                 file.string());
   }
   if (descriptor < 0) {
@@ -38,10 +38,10 @@ Result<CampaignLock> CampaignLock::acquire(const std::filesystem::path& file,
                 "another seedframe is at work on {}: wait for it, or stop it with Ctrl-C",
                 file.parent_path().string());
   }
-  return CampaignLock(descriptor);
+  return FolderLock(descriptor);
 }
 
-CampaignLock::~CampaignLock() {
+FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 

@@ -1,4 +1,4 @@
-#include "slurm/node_folder.h"
+#include "base/machine_folder.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -13,9 +13,9 @@ namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kTask = "task-";
+constexpr std::string_view kOwn = "task-";
 
-fs::path lock_of(const fs::path& task) { return task / "lock"; }
+fs::path lock_of(const fs::path& own) { return own / "lock"; }
 
 fs::path usual_folder() {
   const char* variable = std::getenv("TMPDIR");
@@ -24,7 +24,7 @@ fs::path usual_folder() {
 }
 
 /// Ours alone: in /tmp, somebody else may have made it before.
-Status make_own(const fs::path& folder) {
+Status make_private(const fs::path& folder) {
   if (folder.has_parent_path()) {
     if (Status made = make_folders(folder.parent_path()); !made) return made;
   }
@@ -34,43 +34,44 @@ Status make_own(const fs::path& folder) {
   struct stat info = {};
   if (::lstat(folder.c_str(), &info) != 0) return system_failure("look at", folder, errno);
   if (S_ISDIR(info.st_mode) && info.st_uid == ::getuid() && (info.st_mode & 0022) == 0) return {};
-  return fail(ErrorKind::kEnvironment,
-              "{} is not a folder that only this user may write to: remove it, or name another one "
-              "with --node-folder",
-              folder.string());
+  return fail(
+      ErrorKind::kEnvironment,
+      "{} is not a folder that only this user may write to: remove it, or name another place "
+      "with TMPDIR (for tasks of Slurm with --node-folder)",
+      folder.string());
 }
 
 }  // namespace
 
-Result<NodeFolder> NodeFolder::open(const fs::path& wanted) {
-  NodeFolder node(wanted.empty() ? usual_folder() : wanted);
-  if (Status made = make_own(node.root_); !made) return forward_error(made);
-  for (const fs::path& folder : {node.assets(), node.meshes()}) {
+Result<MachineFolder> MachineFolder::open(const fs::path& wanted) {
+  MachineFolder machine(wanted.empty() ? usual_folder() : wanted);
+  if (Status made = make_private(machine.root_); !made) return forward_error(made);
+  for (const fs::path& folder : {machine.assets(), machine.meshes()}) {
     if (Status made = make_folders(folder); !made) return forward_error(made);
   }
-  node.remove_dead_tasks();
-  return node;
+  machine.remove_abandoned();
+  return machine;
 }
 
-void NodeFolder::remove_dead_tasks() const {
+void MachineFolder::remove_abandoned() const {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(root_, ignored)) {
-    if (!entry.path().filename().string().starts_with(kTask)) continue;
+    if (!entry.path().filename().string().starts_with(kOwn)) continue;
     if (!fs::exists(lock_of(entry.path()), ignored)) continue;  // just being made
-    const auto lock = CampaignLock::acquire(lock_of(entry.path()), std::chrono::milliseconds(0));
+    const auto lock = FolderLock::acquire(lock_of(entry.path()), std::chrono::milliseconds(0));
     if (lock) fs::remove_all(entry.path(), ignored);
   }
 }
 
-Result<NodeFolder::Task> NodeFolder::make_task() const {
-  std::string name = (root_ / (std::string(kTask) + "XXXXXX")).string();
+Result<MachineFolder::Own> MachineFolder::make_own() const {
+  std::string name = (root_ / (std::string(kOwn) + "XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr) return system_failure("create", name, errno);
-  Result<CampaignLock> lock = CampaignLock::acquire(lock_of(name));
+  Result<FolderLock> lock = FolderLock::acquire(lock_of(name));
   if (!lock) return forward_error(lock);
-  return Task(name, std::move(*lock));
+  return Own(name, std::move(*lock));
 }
 
-NodeFolder::Task::~Task() {
+MachineFolder::Own::~Own() {
   if (path_.empty()) return;
   std::error_code ignored;
   fs::remove_all(path_, ignored);
