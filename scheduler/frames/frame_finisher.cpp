@@ -46,6 +46,7 @@ Result<TwinTally> check_with_twin(const FinishTask& task, const TwinCheck& check
   const TwinVerdict verdict =
       compare_with_twin(task.spec, rendered, twin.instance_ids, check.tolerance, rounding_of(twin));
   if (verdict.complaint.empty()) return verdict.tally;
+  if (task.rejected_folder.empty()) return fail(ErrorKind::kRender, "{}", verdict.complaint);
   if (Status kept = keep_rejected(task, rendered, twin, verdict.complaint); !kept) {
     return forward_error(kept);
   }
@@ -53,18 +54,20 @@ Result<TwinTally> check_with_twin(const FinishTask& task, const TwinCheck& check
               task.rejected_folder.string());
 }
 
-/// What both ways of finishing write.
-Status write_labels(const FinishTask& task, const std::vector<std::string>& categories,
-                    const Image<std::uint16_t>& instance_ids, const Twin& twin,
-                    FrameWriter& writer) {
+Result<FrameLabels> label(const FinishTask& task, const std::vector<std::string>& categories,
+                          const Image<std::uint16_t>& instance_ids, const Twin& twin) {
   Result<FrameLabels> labels = make_labels(task.spec, categories, instance_ids);
-  if (!labels) return forward_error(labels);
-  add_amodal_labels(*labels, task.spec, twin, instance_ids);
+  if (labels) add_amodal_labels(*labels, task.spec, twin, instance_ids);
+  return labels;
+}
+
+/// What both ways of finishing write.
+void write_labels(const FinishTask& task, const Image<std::uint16_t>& instance_ids,
+                  const FrameLabels& labels, FrameWriter& writer) {
   writer.write(frame_files::kSpec, readable_layout(canonical_text(task.spec)));
   writer.write(frame_files::kInstances, encode_png(instance_ids));
   writer.write(frame_files::kSemantic, encode_png(semantic_image(task.spec, instance_ids)));
-  writer.write(frame_files::kLabels, readable_layout(canonical_text(*labels)));
-  return {};
+  writer.write(frame_files::kLabels, readable_layout(canonical_text(labels)));
 }
 
 /// What the worker wrote becomes the frame's own file, without what differs from run to run.
@@ -100,47 +103,68 @@ Result<FinishedFrame> close(const FinishTask& task, const TwinTally& tally, Fram
 
 }  // namespace
 
-Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorManagement& color) {
-  const fs::path rendered = rendered_passes(task.attempt_folder);
-  Result<FramePasses> read = read_rendered_frame(task.spec, task.frame_id, rendered);
+std::map<std::string, std::string> DevelopedFrame::pixel_hashes() const {
+  std::map<std::string, std::string> hashes = passes.pixel_hashes;
+  hashes["image"] = pixel_hash(image, "R,G,B");
+  return hashes;
+}
+
+Result<DevelopedFrame> FrameFinisher::develop(const FinishTask& task, const ColorManagement& color,
+                                              bool labels) {
+  Result<FramePasses> read =
+      read_rendered_frame(task.spec, task.frame_id, rendered_passes(task.attempt_folder));
   if (!read) return forward_error(read);
-  const FramePasses passes = on_whole_image(std::move(*read), task.spec.render);
-  const Image<std::uint16_t>& ids = passes.instance_ids;
+  DevelopedFrame frame;
+  frame.passes = on_whole_image(std::move(*read), task.spec.render);
+  const Image<std::uint16_t>& ids = frame.passes.instance_ids;
   const Result<Twin> twin = tracer_.trace(task.spec, task.meshes, TwinTracer::Passes::kIdsOnly);
   if (!twin) return forward_error(twin);
   const Result<TwinTally> tally = check_with_twin(task, check_, ids, *twin);
   if (!tally) return forward_error(tally);
-  Result<Image<std::uint8_t>> image = color.apply(passes.combined, task.spec.image);
+  frame.twin = *tally;
+  Result<Image<std::uint8_t>> image = color.apply(frame.passes.combined, task.spec.image);
   if (image && task.spec.sensor) image = through_sensor(*image, *task.spec.sensor);
   if (!image) return forward_error(image);
-  const auto picture = encode_image(*image, encoding_);
-  if (!picture) return forward_error(picture);
+  frame.image = std::move(*image);
+  if (!labels) return frame;
+  Result<FrameLabels> made = label(task, categories_, ids, *twin);
+  if (!made) return forward_error(made);
+  frame.labels = std::move(*made);
+  return frame;
+}
 
+Result<FinishedFrame> FrameFinisher::write(const FinishTask& task,
+                                           const DevelopedFrame& frame) const {
+  const auto picture = encode_image(frame.image, encoding_);
+  if (!picture) return forward_error(picture);
+  const fs::path rendered = rendered_passes(task.attempt_folder);
   FrameWriter writer(task.attempt_folder);
-  if (Status labelled = write_labels(task, categories_, ids, *twin, writer); !labelled) {
-    return forward_error(labelled);
-  }
+  write_labels(task, frame.passes.instance_ids, *frame.labels, writer);
   writer.write(frame_files::image(encoding_.format), *picture);
   if (Status kept = keep_passes(rendered, writer); !kept) return forward_error(kept);
-  write_data_passes(passes.depth, passes.normal, writer);
+  write_data_passes(frame.passes.depth, frame.passes.normal, writer);
   writer.manifest().image = encoding_;
-  writer.manifest().pixel_hashes = passes.pixel_hashes;
-  writer.manifest().pixel_hashes["image"] = pixel_hash(*image, "R,G,B");
-  Result<FinishedFrame> finished = close(task, *tally, writer);
+  writer.manifest().pixel_hashes = frame.pixel_hashes();
+  Result<FinishedFrame> finished = close(task, frame.twin, writer);
   if (!finished) return finished;
   std::error_code ignored;
   fs::remove(sharp_passes(rendered), ignored);
   return finished;
 }
 
+Result<FinishedFrame> FrameFinisher::finish(const FinishTask& task, const ColorManagement& color) {
+  const Result<DevelopedFrame> frame = develop(task, color);
+  if (!frame) return forward_error(frame);
+  return write(task, *frame);
+}
+
 Result<FinishedFrame> FrameFinisher::finish_by_twin(const FinishTask& task) {
   const Result<Twin> twin = tracer_.trace(task.spec, task.meshes, TwinTracer::Passes::kAsked);
   if (!twin) return forward_error(twin);
+  const Result<FrameLabels> labels = label(task, categories_, twin->instance_ids, *twin);
+  if (!labels) return forward_error(labels);
   FrameWriter writer(task.attempt_folder);
-  if (Status labelled = write_labels(task, categories_, twin->instance_ids, *twin, writer);
-      !labelled) {
-    return forward_error(labelled);
-  }
+  write_labels(task, twin->instance_ids, *labels, writer);
   write_data_passes(twin->depth, twin->normal, writer);
   auto& hashes = writer.manifest().pixel_hashes;
   hashes["index"] = pixel_hash(twin->instance_ids, "X");

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 
+#include "annotate/labels.h"
 #include "base/error.h"
 #include "image/color_management.h"
+#include "image/pass_reader.h"
 #include "spec/frame_spec.h"
 #include "spec/image_encoding.h"
 #include "spec/twin_check.h"
@@ -17,9 +21,21 @@ namespace seedframe {
 struct FinishTask {
   FrameSpec spec;
   std::string frame_id;
-  MeshBuffers meshes;                     ///< of the spec's instances
-  std::filesystem::path attempt_folder;   ///< holds the worker's passes
-  std::filesystem::path rejected_folder;  ///< made for a frame that is not as its twin sees it
+  MeshBuffers meshes;                    ///< of the spec's instances
+  std::filesystem::path attempt_folder;  ///< holds the worker's passes
+  /// Made for a frame that is not as its twin sees it; empty: nothing of it is kept.
+  std::filesystem::path rejected_folder;
+};
+
+/// A rendered frame that was found good, in memory.
+struct DevelopedFrame {
+  FramePasses passes;         ///< on the whole image
+  Image<std::uint8_t> image;  ///< RGB, for a display
+  std::optional<FrameLabels> labels;
+  TwinTally twin;
+
+  /// As a manifest has them.
+  std::map<std::string, std::string> pixel_hashes() const;
 };
 
 struct FinishedFrame {
@@ -44,6 +60,13 @@ class FrameFinisher {
   /// normal.exr when asked for, and the manifest. A frame that differs from its twin is an error,
   /// and what was rendered is kept in the rejected folder.
   Result<FinishedFrame> finish(const FinishTask& task, const ColorManagement& color);
+
+  /// Its first half, in memory: reads and checks the passes, and makes the picture and, if they are
+  /// wanted, labels.
+  Result<DevelopedFrame> develop(const FinishTask& task, const ColorManagement& color,
+                                 bool labels = true);
+  /// Its second half: writes the files, of a frame that was developed with its labels.
+  Result<FinishedFrame> write(const FinishTask& task, const DevelopedFrame& frame) const;
 
   /// The same files without the image and the passes, from the twin; no worker was asked.
   Result<FinishedFrame> finish_by_twin(const FinishTask& task);
