@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 #include "base/files.h"
 #include "campaign/input_files.h"
-#include "frames/frame_fingerprint.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -17,6 +15,7 @@ namespace {
 
 constexpr const char* kConfigFileKey = "config_file";  // absolute: the job store is not the dataset
 constexpr const char* kAllowedKey = "allowed_folders";  // a JSON list
+constexpr const char* kGrowsKey = "grows";  // "yes": its frames are those of its own graphs
 
 /// What the campaign was made from.
 Status describe_campaign(const PreparedCampaign& prepared, JobStore& store) {
@@ -39,24 +38,29 @@ Status describe_campaign(const PreparedCampaign& prepared, JobStore& store) {
   return store.set_meta(kChoicesKey, canonical_json(to_json(*choices)));
 }
 
-Status write_campaign(const CampaignFiles& files, PreparedCampaign& prepared) {
+Status write_campaign(const CampaignFiles& files, const PreparedCampaign& prepared,
+                      FirstFrames first) {
+  const bool grows = first == FirstFrames::kNone;
   for (const fs::path& folder : {files.frames(), files.logs()}) {
     if (Status made = make_folders(folder); !made) return made;
   }
   if (Status written = write_file_atomically(files.config(), prepared.source.text); !written) {
     return written;
   }
+  if (grows) {
+    if (Status written = write_file_atomically(files.graphs(), ""); !written) return written;
+  }
   Result<JobStore> store = JobStore::create(files.unfinished_store());
   if (!store) return forward_error(store);
   // Together, since each transaction waits for the disk several times.
   return store->write_together(JobStore::Sync::kNow, [&]() -> Status {
     if (Status described = describe_campaign(prepared, *store); !described) return described;
-    return add_frames_from(0, prepared, *store);
+    return grows ? store->set_meta(kGrowsKey, "yes") : add_frames_from(0, prepared, *store);
   });
 }
 
 tl::unexpected<Error> not_empty(const fs::path& folder) {
-  return fail(ErrorKind::kInput, "{} is not empty: give another folder with -o", folder.string());
+  return fail(ErrorKind::kInput, "{} is not empty: give another folder", folder.string());
 }
 
 /// Removes what a submission left that was killed before its store had its name. Anything else in
@@ -65,6 +69,8 @@ Status clear_unfinished(const CampaignFiles& files) {
   const fs::path store = files.unfinished_store();
   const std::vector<fs::path> left = {files.config(),
                                       files.config().string() + ".tmp",
+                                      files.graphs(),
+                                      files.graphs().string() + ".tmp",
                                       store,
                                       store.string() + "-wal",
                                       store.string() + "-shm",
@@ -93,7 +99,7 @@ Status check_new_campaign(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return {};
   if (!fs::is_directory(folder, error)) {
-    return fail(ErrorKind::kInput, "{} is not a folder: give another one with -o", folder.string());
+    return fail(ErrorKind::kInput, "{} is not a folder: give another one", folder.string());
   }
   // Every submission makes its lock first: without one, whatever is there is somebody else's.
   if (!fs::is_empty(folder, error) && !fs::exists(files.lock(), error)) return not_empty(folder);
@@ -106,7 +112,8 @@ Status check_new_campaign(const fs::path& folder) {
   return {};
 }
 
-Result<LockedCampaign> create_campaign(const fs::path& folder, PreparedCampaign& prepared) {
+Result<LockedCampaign> create_campaign(const fs::path& folder, const PreparedCampaign& prepared,
+                                       FirstFrames first) {
   const CampaignFiles files(folder);
   std::error_code error;
   const bool existed = fs::exists(folder, error);
@@ -122,7 +129,7 @@ Result<LockedCampaign> create_campaign(const fs::path& folder, PreparedCampaign&
   if (!lock) return forward_error(lock);
   if (Status possible = check_new_campaign(folder); !possible) return forward_error(possible);
   if (Status cleared = clear_unfinished(files); !cleared) return forward_error(cleared);
-  Status made = write_campaign(files, prepared);
+  Status made = write_campaign(files, prepared, first);
   if (made) made = rename_file(files.unfinished_store(), files.store());
   if (!made) return not_possible(made.error());
   Result<Campaign> campaign = open_campaign(folder);
@@ -227,7 +234,17 @@ Result<CampaignSource> source_of(const Campaign& campaign, const fs::path& home,
     if (folder.is_string()) source.allowed.add(folder.get<std::string>());
   }
   for (const std::string& folder : allowed) source.allowed.add(folder);
+  const Result<bool> grows = has_own_graphs(campaign);
+  if (!grows) return forward_error(grows);
+  std::error_code ignored;
+  if (*grows) source.graphs = fs::absolute(campaign.files.graphs(), ignored);
   return source;
+}
+
+Result<bool> has_own_graphs(const Campaign& campaign) {
+  const Result<std::string> grows = campaign.store.meta(kGrowsKey);
+  if (!grows) return forward_error(grows);
+  return !grows->empty();
 }
 
 namespace {
@@ -249,6 +266,28 @@ Status take_choices(const Campaign& campaign, PreparedCampaign& prepared) {
   return {};
 }
 
+/// What says how many frames there are cannot be set where that follows from the campaign's graphs.
+Status check_overrides(const Campaign& campaign, const std::vector<Override>& more) {
+  for (const Override& change : more) {
+    for (const char* key : {"graphs", "scenes", "frames_per_scene", "sweep"}) {
+      if (change.path != key && !change.path.starts_with(std::string(key) + ".")) continue;
+      return fail(ErrorKind::kInput,
+                  "--set {}: the frames of this campaign are those that 'seedframe stream --keep' "
+                  "was asked for, a line each of {}",
+                  change.path, campaign.files.graphs().string());
+    }
+  }
+  return {};
+}
+
+/// Lines are on the disk before the frames that they are of.
+Status check_graphs(const Campaign& campaign, std::int64_t frames, std::int64_t lines) {
+  if (lines >= frames) return {};
+  return fail(ErrorKind::kCorrupt,
+              "{} has {} whole lines, and the campaign has {} frames: it was cut",
+              campaign.files.graphs().string(), lines, frames);
+}
+
 }  // namespace
 
 Result<PreparedCampaign> prepare_again(const Campaign& campaign, const fs::path& home,
@@ -256,8 +295,18 @@ Result<PreparedCampaign> prepare_again(const Campaign& campaign, const fs::path&
                                        const std::vector<Override>& more) {
   Result<CampaignSource> source = source_of(campaign, home, allowed);
   if (!source) return forward_error(source);
+  const bool grows = !source->graphs.empty();
+  const Result<FrameCounts> counts = grows ? campaign.store.counts() : FrameCounts();
+  if (!counts) return forward_error(counts);
+  if (Status possible = grows ? check_overrides(campaign, more) : Status(); !possible) {
+    return forward_error(possible);
+  }
   source->overrides.insert(source->overrides.end(), more.begin(), more.end());
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
+  if (prepared && grows) {
+    const Status whole = check_graphs(campaign, counts->total(), prepared->expander.frame_count());
+    if (!whole) return forward_error(whole);
+  }
   if (prepared) {
     if (Status taken = take_choices(campaign, *prepared); !taken) return forward_error(taken);
     return prepared;
@@ -272,119 +321,6 @@ Status begin_run(Campaign& campaign) {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
   return campaign.store.begin_run(unix_time(), host.data(), ::getpid());
-}
-
-namespace {
-
-/// What reconcile has to change in the store, found while reading it.
-struct Changes {
-  std::vector<std::pair<std::int64_t, FrameResult>> adopted;
-  std::vector<std::pair<std::int64_t, std::string>> fingerprints;
-  std::vector<std::int64_t> invalid;
-};
-
-struct ReconcileWishes {
-  ImageEncoding pictures;
-  bool verify = false;
-};
-
-FrameResult result_of(const Manifest& manifest, std::string fingerprint) {
-  return {manifest.pixel_hash(), std::move(fingerprint), manifest.twin};
-}
-
-/// The manifest of a frame all of whose files are there, and as they should be.
-Result<Manifest> complete_frame(const fs::path& folder, const FrameRow& row,
-                                const ImageEncoding& pictures) {
-  Result<Manifest> manifest = verify_frame(folder, row.frame_id, VerifyDepth::kContents);
-  if (!manifest || manifest->picture_is(pictures)) return manifest;
-  return fail(ErrorKind::kCorrupt, "{}: its picture is {}, and the campaign wants {}",
-              folder.string(), describe(manifest->image), describe(pictures));
-}
-
-/// Whether a frame that the store calls done is so.
-bool is_still_done(const FrameRow& row, const fs::path& folder, const std::string& fingerprint,
-                   const ReconcileWishes& wishes, Changes& changes, Reconciliation& result) {
-  const bool untouched = !fingerprint.empty() && fingerprint == row.fingerprint;
-  if (untouched && !wishes.verify) return true;
-  const Result<Manifest> manifest = complete_frame(folder, row, wishes.pictures);
-  if (manifest && manifest->pixel_hash() == row.pixel_hash) {
-    if (!untouched) changes.fingerprints.emplace_back(row.frame, fingerprint);
-    return true;
-  }
-  result.invalid.push_back(manifest ? folder.string() + ": its pixel hash is not the store's"
-                                    : manifest.error().message);
-  changes.invalid.push_back(row.frame);
-  return false;
-}
-
-/// `fingerprint` is of the frame's folder, empty if there is none.
-void reconcile_frame(const FrameRow& row, const fs::path& folder, const std::string& fingerprint,
-                     const ReconcileWishes& wishes, Changes& changes, Reconciliation& result) {
-  if (row.state == FrameState::kDone) {
-    if (is_still_done(row, folder, fingerprint, wishes, changes, result)) {
-      ++result.already_done;
-      return;
-    }
-  } else if (!fingerprint.empty()) {
-    // What the store did not see being committed is believed only after reading all of it.
-    const auto manifest = complete_frame(folder, row, wishes.pictures);
-    if (manifest) {
-      changes.adopted.emplace_back(row.frame, result_of(*manifest, fingerprint));
-      return;
-    }
-  }
-  if (row.state == FrameState::kQuarantined) {
-    ++result.quarantined;
-  } else {
-    result.to_render.push_back({row.frame, row.attempts, row.crashes});
-  }
-}
-
-Status apply(const Changes& changes, JobStore& store) {
-  return store.write_together(JobStore::Sync::kNow, [&]() -> Status {
-    for (const auto& [frame, result] : changes.adopted) {
-      if (Status done = store.adopt(frame, result); !done) return done;
-    }
-    for (const auto& [frame, fingerprint] : changes.fingerprints) {
-      if (Status done = store.set_fingerprint(frame, fingerprint); !done) return done;
-    }
-    for (const std::int64_t frame : changes.invalid) {
-      if (Status done = store.reset(frame); !done) return done;
-    }
-    return {};
-  });
-}
-
-}  // namespace
-
-Result<Reconciliation> reconcile(Campaign& campaign, bool verify) {
-  const Result<ImageEncoding> pictures = wanted_encoding(campaign);
-  if (!pictures) return forward_error(pictures);
-  const ReconcileWishes wishes{*pictures, verify};
-  std::error_code error;
-  fs::remove_all(campaign.files.work(), error);
-  Reconciliation result;
-  Changes changes;
-  constexpr int kBatch = 4096;
-  std::vector<std::string> fingerprints(kBatch);
-  for (std::int64_t first = 0;;) {
-    const auto rows = campaign.store.frames_from(first, kBatch);
-    if (!rows) return forward_error(rows);
-    if (rows->empty()) break;
-    // Looking at a million small files is what takes the time.
-    tbb::parallel_for(std::size_t{0}, rows->size(), [&](std::size_t i) {
-      fingerprints[i] = frame_fingerprint(campaign.files.frame((*rows)[i].frame));
-    });
-    for (std::size_t i = 0; i < rows->size(); ++i) {
-      const FrameRow& row = (*rows)[i];
-      reconcile_frame(row, campaign.files.frame(row.frame), fingerprints[i], wishes, changes,
-                      result);
-    }
-    first = rows->back().frame + 1;
-  }
-  if (Status applied = apply(changes, campaign.store); !applied) return forward_error(applied);
-  result.adopted = static_cast<std::int64_t>(changes.adopted.size());
-  return result;
 }
 
 std::string command_to_reproduce(const fs::path& folder, std::int64_t frame) {

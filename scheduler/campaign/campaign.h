@@ -28,13 +28,20 @@ struct LockedCampaign {
 /// Whether create_campaign could begin there now; see there.
 Status check_new_campaign(const std::filesystem::path& folder);
 
+/// Which frames a new campaign has.
+enum class FirstFrames {
+  kAll,   ///< those of its config
+  kNone,  ///< they come later, each with a line in the campaign's own graphs
+};
+
 /// Makes the folder, campaign.yaml and the store with every frame pending, and locks it. The folder
 /// must not exist, or be empty but for what a submission left that was killed (kInput). Every frame
 /// is expanded on its way into the store, so memory does not grow with their number. The store gets
 /// its name last: until then there is no campaign. A folder that was made here goes again when
 /// something fails.
 Result<LockedCampaign> create_campaign(const std::filesystem::path& folder,
-                                       PreparedCampaign& prepared);
+                                       const PreparedCampaign& prepared,
+                                       FirstFrames first = FirstFrames::kAll);
 
 /// A campaign of just these frames of another one, to be run and thrown away: without
 /// campaign.yaml, and its run has begun. `folder` becomes new. `used` takes what the frames were
@@ -74,6 +81,9 @@ Result<Campaign> open_campaign(const std::filesystem::path& folder);
 /// these, `allowed` are.
 Result<CampaignSource> source_of(const Campaign& campaign, const std::filesystem::path& home,
                                  const std::vector<std::string>& allowed = {});
+
+/// Whether its frames are those of its own graphs (CampaignFiles::graphs), and may become more.
+Result<bool> has_own_graphs(const Campaign& campaign);
 
 /// prepare() of that source, with `more` set. Its errors tell places by the name that the config
 /// was submitted under; a line about the campaign's copy follows.

@@ -104,6 +104,15 @@ Result<std::vector<std::int64_t>> frames_to_encode_anew(const Campaign& campaign
   return frames;
 }
 
+/// Whether its own graphs have lines of frames that the store does not know: whoever wrote them was
+/// killed before it could add these.
+Result<bool> has_grown(const Campaign& campaign, const PreparedCampaign& prepared) {
+  if (prepared.source.graphs.empty()) return false;
+  const Result<FrameCounts> counts = campaign.store.counts();
+  if (!counts) return forward_error(counts);
+  return prepared.expander.frame_count() > counts->total();
+}
+
 tl::unexpected<Error> other_program(const fs::path& folder, std::int64_t frame,
                                     const std::string& how_many) {
   return fail(ErrorKind::kInput,
@@ -218,7 +227,9 @@ Result<RenewedFrames> renew_changed_frames(
   if (!before) return forward_error(before);
   const InputStamps now = input_stamps(prepared);
   RenewedFrames renewed;
-  if (!now.empty() && now == *before) return renewed;
+  const Result<bool> grown = has_grown(campaign, prepared);
+  if (!grown) return forward_error(grown);
+  if (!now.empty() && now == *before && !*grown) return renewed;
   const auto changed = changed_frames(campaign, prepared, renewed);
   if (!changed) return forward_error(changed);
   const auto encoded = frames_to_encode_anew(campaign, prepared.settings);

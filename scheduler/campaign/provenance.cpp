@@ -160,8 +160,23 @@ Result<std::string> Provenance::add(Json attempt) {
   Json& attempts = json_["attempts"];
   if (std::find(attempts.begin(), attempts.end(), attempt) != attempts.end()) return text;
   attempts.push_back(std::move(attempt));
-  if (Status written = write(); !written) return forward_error(written);
+  if (Status written = write(); !written) {
+    attempts.erase(attempts.size() - 1);  // or nobody would write it
+    return forward_error(written);
+  }
   return text;
+}
+
+Status Provenance::add_inputs(const UsedFiles& used) {
+  const Json before = json_;
+  for (const auto& [table, hashes] :
+       {std::pair("assets", asset_hashes(used)), std::pair("textures", image_hashes(used))}) {
+    for (const auto& [name, sha256] : hashes) json_[table].emplace(name, sha256);
+  }
+  if (json_ == before) return {};
+  Status written = write();
+  if (!written) json_ = before;
+  return written;
 }
 
 std::string Provenance::departure(const std::string& attempt) const {

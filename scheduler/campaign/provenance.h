@@ -36,6 +36,8 @@ class Provenance {
   Result<std::string> of_worker(const ReadyMessage& ready);
   /// Of attempts that another machine has made, as its Provenance tells it. kCorrupt: it does not.
   Result<std::string> of_record(const std::string& attempt);
+  /// What a further frame was drawn from; provenance.json has what is new of it.
+  Status add_inputs(const UsedFiles& used);
   /// A sentence, if the campaign's earlier runs were made with others, so that pixels may differ.
   std::string departure(const std::string& attempt) const;
   /// Of attempts without a worker.

@@ -41,9 +41,19 @@ std::pair<std::uint64_t, std::uint64_t> identity(const fs::path& folder) {
 
 }  // namespace
 
+FolderIdentity::FolderIdentity(fs::path folder)
+    : folder_(std::move(folder)), identity_(identity(folder_)) {}
+
+Status FolderIdentity::check() const {
+  if (identity(folder_) == identity_) return {};
+  return fail(ErrorKind::kEnvironment,
+              "{} is not the folder that this run began with: it was moved or replaced meanwhile",
+              folder_.string());
+}
+
 StoreWriter::StoreWriter(CampaignFiles files, JobStore& store, OnWritten on_written)
     : files_(std::move(files)),
-      root_(identity(files_.root())),
+      root_(files_.root()),
       store_(store),
       on_written_(std::move(on_written)),
       thread_([this] { work(); }) {}
@@ -81,11 +91,7 @@ void StoreWriter::work() {
 }
 
 Status StoreWriter::write(const std::vector<StoreEvent>& events) {
-  if (identity(files_.root()) != root_) {
-    return fail(ErrorKind::kEnvironment,
-                "{} is not the folder that this run began with: it was moved or replaced meanwhile",
-                files_.root().string());
-  }
+  if (Status there = root_.check(); !there) return there;
   // That an attempt began is lost with the attempt itself: not worth a wait.
   const bool only_started = std::all_of(events.begin(), events.end(), [](const StoreEvent& event) {
     return std::holds_alternative<AttemptStarted>(event);
@@ -121,7 +127,8 @@ Result<bool> StoreWriter::commit(const FrameFinished& event) {
   const auto& [frame, attempt] = event.job;
   auto under_way = store_.is_under_way(frame, attempt);
   if (!under_way || !*under_way) return under_way;  // late, or said twice
-  const Result<std::string> fingerprint = put_into_place(event.job);
+  const Result<std::string> fingerprint =
+      put_into_place(files_, files_.attempt(frame, attempt), frame);
   if (!fingerprint) return forward_error(fingerprint);
   Status row = store_.frame_done(frame, attempt, {event.pixel_hash, *fingerprint, event.twin},
                                  event.timings);
@@ -129,18 +136,19 @@ Result<bool> StoreWriter::commit(const FrameFinished& event) {
   return true;
 }
 
-Result<std::string> StoreWriter::put_into_place(const FrameJob& job) const {
-  const fs::path folder = files_.frame(job.frame);
-  if (Status made = make_folders_in(files_.root(), folder.parent_path()); !made)
+Result<std::string> put_into_place(const CampaignFiles& files, const fs::path& attempt,
+                                   std::int64_t frame) {
+  const fs::path folder = files.frame(frame);
+  if (Status made = make_folders_in(files.root(), folder.parent_path()); !made)
     return forward_error(made);
   // An earlier attempt may have been rejected; this one was not.
   std::error_code ignored;
-  fs::remove_all(files_.rejected(job.frame), ignored);
+  fs::remove_all(files.rejected(frame), ignored);
   // What somebody put in its place; of a link, not its target, which is not ours.
   if (fs::symlink_status(folder, ignored).type() != fs::file_type::directory) {
     fs::remove(folder, ignored);
   }
-  if (Status placed = replace_folder(files_.attempt(job.frame, job.attempt), folder); !placed) {
+  if (Status placed = replace_folder(attempt, folder); !placed) {
     return forward_error(placed);
   }
   return frame_fingerprint(folder);

@@ -18,6 +18,23 @@
 
 namespace seedframe {
 
+/// Which folder a campaign has, so that it is seen when that was moved or replaced.
+class FolderIdentity {
+ public:
+  explicit FolderIdentity(std::filesystem::path folder);
+  /// kEnvironment: another folder, or none, has its path now.
+  Status check() const;
+
+ private:
+  std::filesystem::path folder_;
+  std::pair<std::uint64_t, std::uint64_t> identity_;  ///< device and inode
+};
+
+/// Gives the folder of a finished attempt the frame's name, without a wait for the disk; the
+/// fingerprint of the frame in its place.
+Result<std::string> put_into_place(const CampaignFiles& files, const std::filesystem::path& attempt,
+                                   std::int64_t frame);
+
 struct AttemptStarted {
   FrameJob job;
   int worker = 0;
@@ -65,11 +82,9 @@ class StoreWriter {
   Status write_rows(const std::vector<StoreEvent>& events);
   /// Places and stores a frame; false if its attempt may not commit, which changes nothing.
   Result<bool> commit(const FrameFinished& event);
-  /// The fingerprint of the frame in its place.
-  Result<std::string> put_into_place(const FrameJob& job) const;
 
   CampaignFiles files_;
-  std::pair<std::uint64_t, std::uint64_t> root_;  ///< device and inode of the campaign's folder
+  FolderIdentity root_;
   JobStore& store_;
   OnWritten on_written_;
   std::mutex mutex_;

@@ -23,6 +23,7 @@ namespace {
 
 struct StreamArguments {
   std::string config;
+  std::string keep;  ///< folder of the campaign that keeps what is rendered; empty: nothing is
   std::vector<std::string> set;
   std::vector<std::string> allowed;
   StreamOptions stream;
@@ -54,14 +55,13 @@ class StopOnSignals {
 /// As a line of graphs is a scene with one frame, so is a request.
 Result<PreparedCampaign> prepare_stream(const StreamArguments& arguments,
                                         const std::filesystem::path& folder) {
-  const std::filesystem::path graphs = folder / "graphs.jsonl";
-  if (Status written = write_file_unsynced(graphs, "{}\n"); !written) return forward_error(written);
-  std::vector<std::string> set = arguments.set;
-  set.push_back("graphs=" + graphs.string());
-  std::vector<std::string> allowed = with_own_assets(arguments.allowed);
-  allowed.push_back(folder.string());
-  Result<CampaignSource> source = read_source(arguments.config, set, seedframe_home(), allowed);
+  Result<CampaignSource> source = read_source(arguments.config, arguments.set, seedframe_home(),
+                                              with_own_assets(arguments.allowed));
   if (!source) return forward_error(source);
+  source->graphs = folder / "graphs.jsonl";
+  if (Status written = write_file_unsynced(source->graphs, "{}\n"); !written) {
+    return forward_error(written);
+  }
   Result<PreparedCampaign> prepared = prepare(std::move(*source));
   if (prepared && prepared->settings.quality) {
     return fail(ErrorKind::kInput,
@@ -69,18 +69,37 @@ Result<PreparedCampaign> prepare_stream(const StreamArguments& arguments,
                 "take it out with --set quality=null",
                 arguments.config);
   }
+  if (prepared && prepared->settings.frames_per_scene != 1) {
+    return fail(ErrorKind::kInput, "--set frames_per_scene: a scene of a stream has one frame");
+  }
   return prepared;
 }
 
-int stream(const StreamArguments& arguments) {
+Result<std::unique_ptr<FrameKeeper>> open_keeper(const StreamArguments& arguments,
+                                                 const PreparedCampaign& prepared) {
+  if (arguments.keep.empty()) return nullptr;
+  auto keeper = FrameKeeper::open(arguments.keep, prepared);
+  if (keeper && (*keeper)->pending_before() > 0) {
+    say_aside(
+        "seedframe: note: {0} frames of {1} are not made: 'seedframe resume {1}' makes them\n",
+        (*keeper)->pending_before(), arguments.keep);
+  }
+  return keeper;
+}
+
+int stream(StreamArguments arguments) {
   const Result<MachineFolder> machine = MachineFolder::open({});
   if (!machine) return report(machine.error());
   const Result<MachineFolder::Own> own = machine->make_own();
   if (!own) return report(own.error());
-  const std::filesystem::path folder = own->folder();
+  std::error_code ignored;
+  const std::filesystem::path folder = std::filesystem::absolute(own->folder(), ignored);
   if (Status made = make_folders(folder); !made) return report(made.error());
   const Result<PreparedCampaign> prepared = prepare_stream(arguments, folder);
   if (!prepared) return report(prepared.error());
+  const Result<std::unique_ptr<FrameKeeper>> keeper = open_keeper(arguments, *prepared);
+  if (!keeper) return report(keeper.error());
+  if (*keeper) arguments.stream.kept = (*keeper)->frames_before();
   constexpr std::int64_t kAnyNumber = 1 << 20;
   const auto set_up = [&]() -> Result<RunSetup> {
     CampaignSettings settings = prepared->settings;
@@ -90,7 +109,8 @@ int stream(const StreamArguments& arguments) {
   const int threads = arguments.run.pool.workers > 0 ? arguments.run.pool.workers : core_count();
   StreamServer server(*prepared, arguments.stream);
   const StopOnSignals stop(server);
-  FrameMaker maker(*prepared, threads, folder, set_up);
+  FrameMaker maker(*prepared, threads, *keeper ? (*keeper)->files().workers() : folder, set_up,
+                   keeper->get());
   if (Status ran = server.run(maker); !ran) return report(ran.error());
   return kExitOk;
 }
@@ -103,11 +123,15 @@ void add_stream_verb(CLI::App& app, const OnSelected& on_selected) {
   CLI::App* verb = app.add_subcommand(
       "stream",
       "make frames on demand: JSON lines of variables' values in, JSON lines with labels and "
-      "pictures out (docs/formats/stream.md); nothing is stored");
+      "pictures out (docs/formats/stream.md); nothing is stored, but what --keep names");
   verb->add_option("CONFIG", arguments->config, "campaign config (docs/config.md)")->required();
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
       ->allow_extra_args(false);
   add_allow_option(*verb, arguments->allowed);
+  verb->add_option("--keep", arguments->keep,
+                   "make the frames that are rendered a campaign in this folder, which is made, or "
+                   "goes on if a stream of the same config has made it")
+      ->type_name("DIR");
   const auto set_fidelity = [&options](const std::string& name) {
     for (const Fidelity each : {Fidelity::kLabels, Fidelity::kPreview, Fidelity::kRender}) {
       if (name == to_string(each)) options.fidelity = each;

@@ -33,11 +33,26 @@ fs::path CampaignFiles::rejected(std::int64_t frame) const {
 
 std::vector<std::filesystem::path> CampaignFiles::own() const {
   std::vector<std::filesystem::path> all;
-  for (const char* name :
-       {"campaign.sqlite", "campaign.sqlite-wal", "campaign.sqlite-shm", "campaign.sqlite-journal",
-        "campaign.sqlite.new", "campaign.yaml", "campaign.lock", "provenance.json", "inputs",
-        "frames", "rejected", "audit", "exports", "report.html", "report_files", "logs", "work",
-        "slurm", "nodes.json"}) {
+  for (const char* name : {"campaign.sqlite",
+                           "campaign.sqlite-wal",
+                           "campaign.sqlite-shm",
+                           "campaign.sqlite-journal",
+                           "campaign.sqlite.new",
+                           "campaign.yaml",
+                           "campaign.lock",
+                           "graphs.jsonl",
+                           "provenance.json",
+                           "inputs",
+                           "frames",
+                           "rejected",
+                           "audit",
+                           "exports",
+                           "report.html",
+                           "report_files",
+                           "logs",
+                           "work",
+                           "slurm",
+                           "nodes.json"}) {
     all.push_back(root_ / name);
   }
   return all;

@@ -18,6 +18,8 @@ class CampaignFiles {
 
   const std::filesystem::path& root() const { return root_; }
   std::filesystem::path config() const { return root_ / "campaign.yaml"; }
+  /// The values of a campaign whose frames were asked for one by one: one line a frame.
+  std::filesystem::path graphs() const { return root_ / "graphs.jsonl"; }
   std::filesystem::path provenance() const { return root_ / "provenance.json"; }
   std::filesystem::path store() const { return root_ / "campaign.sqlite"; }
   /// The store until every frame is in it: without its final name there is no campaign.

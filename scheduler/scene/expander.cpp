@@ -31,7 +31,7 @@ class SceneExpander::Program {
         render_seed_(config.draw_seed(), "render.seed") {}
 
   Status compile();
-  using Given = std::shared_ptr<const std::vector<GivenValues>>;
+  using Given = std::shared_ptr<const Graph>;
 
   /// `given`: null, what the graphs give.
   Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes,
@@ -53,7 +53,7 @@ class SceneExpander::Program {
   void apply_choice(std::int64_t frame, RenderSettings& render) const;
   RenderSettings render_settings(const EvaluationContext& context) const;
   /// Before anything is evaluated.
-  Result<EvaluationContext> context_of(std::int64_t scene, std::int64_t view, Given given) const;
+  EvaluationContext context_of(std::int64_t scene, std::int64_t view, const Given& given) const;
   void set_sweep(std::int64_t combination, VariableValues& values) const;
   void add_sweep(const VariableValues& values, Json& graph) const;
   /// Nothing without graphs.
@@ -71,7 +71,7 @@ class SceneExpander::Program {
   PhiloxStream render_seed_;
   CompiledConfig compiled_;
   // These keep what the next frame may want again, whichever thread expands it.
-  mutable LastMade<std::int64_t, std::vector<GivenValues>> graph_;  ///< by scene
+  mutable LastMade<std::int64_t, Graph> graph_;  ///< by scene
   mutable GroundMaker ground_;
   std::unique_ptr<ConstraintChecker> checker_;
   std::optional<PatchWindow> patches_;
@@ -133,17 +133,18 @@ void SceneExpander::Program::add_sweep(const VariableValues& values, Json& graph
 
 Result<SceneExpander::Program::Given> SceneExpander::Program::given_for(std::int64_t scene) const {
   if (graphs_ == nullptr) return nullptr;
-  std::shared_ptr<const std::vector<GivenValues>> given = graph_.find(scene);
+  Given given = graph_.find(scene);
   if (given != nullptr) return given;
-  Result<std::vector<GivenValues>> read = graphs_->read(scene, compiled_.variables.graph_variables);
+  Result<Graph> read = graphs_->read(scene, compiled_.variables.graph_variables);
   if (!read) return forward_error(read);
-  given = std::make_shared<const std::vector<GivenValues>>(std::move(*read));
+  given = std::make_shared<const Graph>(std::move(*read));
   graph_.keep(scene, given);
   return given;
 }
 
-Result<EvaluationContext> SceneExpander::Program::context_of(std::int64_t scene, std::int64_t view,
-                                                             Given given) const {
+EvaluationContext SceneExpander::Program::context_of(std::int64_t scene, std::int64_t view,
+                                                     const Given& given) const {
+  if (given && given->scene) scene = *given->scene;
   const std::int64_t combinations = config_.sweep.size();
   EvaluationContext context;
   context.scene = static_cast<std::uint32_t>(scene);
@@ -153,12 +154,7 @@ Result<EvaluationContext> SceneExpander::Program::context_of(std::int64_t scene,
       static_cast<std::uint32_t>(config_.sweep.hold_draws ? scene / combinations : scene);
   context.values = compiled_.variables.blank_values();
   set_sweep(scene % combinations, context.values);
-  if (given == nullptr) {
-    Result<Given> read = given_for(scene);
-    if (!read) return forward_error(read);
-    given = std::move(*read);
-  }
-  context.given = std::move(given);
+  if (given) context.given = {given, &given->values};
   return context;
 }
 
@@ -224,9 +220,12 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
   result.scene = frame / config_.frames_per_scene;
   result.view = frame % config_.frames_per_scene;
   result.constraints.resize(compiled_.constraints.size());
-  Result<EvaluationContext> begun = context_of(result.scene, result.view, std::move(given));
-  if (!begun) return forward_error(begun);
-  EvaluationContext& context = *begun;
+  if (given == nullptr) {
+    Result<Given> read = given_for(result.scene);
+    if (!read) return forward_error(read);
+    given = std::move(*read);
+  }
+  EvaluationContext context = context_of(result.scene, result.view, given);
   const CompiledConstraint* unmet = nullptr;
   std::vector<std::size_t> seen;  ///< may be cut out as patches
   FrameDraft draft;
@@ -282,6 +281,12 @@ Result<ExpandedFrame> SceneExpander::Program::expand(std::int64_t frame,
     result.spec.instances.push_back(std::move(instance.spec));
   }
   if (choices) apply_choice(frame, result.spec.render);
+  if (given) {
+    if (Status applied = apply(given->rendering, result.spec.render); !applied) {
+      context.report_frame(applied.error().message);
+      return tl::unexpected(*context.error);
+    }
+  }
   if (wishes.id) result.id = frame_id(result.spec);
   return result;
 }
@@ -306,12 +311,13 @@ Result<ExpandedFrame> SceneExpander::expand(std::int64_t frame,
 }
 
 Result<ExpandedFrame> SceneExpander::expand_given(std::int64_t scene, const Json& values,
+                                                  const RenderingWish& rendering,
                                                   const std::string& where,
                                                   const ExpansionWishes& wishes) const {
-  Result<std::vector<GivenValues>> given = read_graph(values, variables(), where);
+  Result<std::vector<GivenValues>> given = read_values(values, variables(), where);
   if (!given) return forward_error(given);
   return program_->expand(scene, wishes,
-                          std::make_shared<const std::vector<GivenValues>>(std::move(*given)));
+                          std::make_shared<const Graph>(Graph{std::move(*given), {}, rendering}));
 }
 
 const GraphVariables& SceneExpander::variables() const { return program_->variables(); }

@@ -14,6 +14,7 @@
 #include "draws/variables.h"
 #include "scene/expanded_frame.h"
 #include "spec/quality_wish.h"
+#include "spec/rendering_wish.h"
 
 namespace seedframe {
 
@@ -38,11 +39,11 @@ class SceneExpander {
   /// key of the config made the frame impossible.
   Result<ExpandedFrame> expand(std::int64_t frame, const ExpansionWishes& wishes = {}) const;
 
-  /// The one frame of a scene whose variables are given, as a line of graphs gives them
-  /// (docs/formats/graphs.md); other draws are the scene's. Of a config whose scenes have one
-  /// frame. `where` begins what is said against the values.
+  /// The one frame of a scene whose variables are given, and rendered as wished, as a line of
+  /// graphs says it (docs/formats/graphs.md); other draws are the scene's. Of a config whose scenes
+  /// have one frame. `where` begins what is said against the values.
   Result<ExpandedFrame> expand_given(std::int64_t scene, const Json& values,
-                                     const std::string& where,
+                                     const RenderingWish& rendering, const std::string& where,
                                      const ExpansionWishes& wishes = {}) const;
   /// What may be given.
   const GraphVariables& variables() const;

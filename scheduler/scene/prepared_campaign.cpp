@@ -32,11 +32,34 @@ Result<CampaignSource> read_source(const fs::path& file, const std::vector<std::
   return CampaignSource{std::move(*text), file, std::move(*overrides), home, std::move(folders)};
 }
 
+namespace {
+
+/// As YAML, whatever is in it.
+std::string quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
+Result<CampaignConfig> read_config(const CampaignSource& source, AllowedFolders allowed) {
+  std::vector<Override> overrides = source.overrides;
+  if (!source.graphs.empty()) {
+    allowed.add(source.graphs);
+    overrides.push_back({"graphs", quoted(source.graphs.string())});
+  }
+  Result<CampaignConfig> config =
+      read_campaign_config(source.text, source.file, overrides, allowed);
+  // That it grows is no change of what frames depend on.
+  if (config) std::erase(config->files, source.graphs);
+  return config;
+}
+
+}  // namespace
+
 Result<PreparedCampaign> prepare(CampaignSource source) {
   AllowedFolders allowed = source.allowed;
   allowed.add(source.home);
-  Result<CampaignConfig> config =
-      read_campaign_config(source.text, source.file, source.overrides, allowed);
+  Result<CampaignConfig> config = read_config(source, allowed);
   if (!config) return forward_error(config);
   std::vector<fs::path> asset_folders = config->asset_folders;
   asset_folders.push_back(source.home / "assets");
@@ -49,7 +72,9 @@ Result<PreparedCampaign> prepare(CampaignSource source) {
   if (!materials) return forward_error(materials);
   std::shared_ptr<const Graphs> graphs;
   if (config->graphs) {
-    Result<Graphs> opened = Graphs::open(*config->graphs);
+    const bool grows = !source.graphs.empty();
+    Result<Graphs> opened =
+        Graphs::open(*config->graphs, grows ? Graphs::Kind::kGrowing : Graphs::Kind::kWhole);
     if (!opened) return forward_error(opened);
     config->scenes = opened->size();
     if (config->frame_count() > kMostFrames) {

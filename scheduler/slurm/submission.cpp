@@ -28,7 +28,8 @@ Json json_of(const CampaignSource& source) {
           {"file", fs::absolute(source.file, ignored).string()},
           {"home", fs::absolute(source.home, ignored).string()},
           {"overrides", overrides},
-          {"allowed", allowed}};
+          {"allowed", allowed},
+          {"graphs", source.graphs.string()}};
 }
 
 CampaignSource source_from(const Json& json) {
@@ -41,6 +42,7 @@ CampaignSource source_from(const Json& json) {
         {change.at("path").get<std::string>(), change.at("value").get<std::string>()});
   }
   for (const Json& folder : json.at("allowed")) source.allowed.add(folder.get<std::string>());
+  source.graphs = json.at("graphs").get<std::string>();
   return source;
 }
 

@@ -26,6 +26,9 @@ struct CampaignSource {
   std::filesystem::path home;       ///< where the built-in assets/ and materials/ are
   /// Besides the folder of `file`, and `home`.
   AllowedFolders allowed = {};
+  /// A campaign's own file of graphs, which may still grow; it comes in place of what the config
+  /// and its overrides say of scenes. Empty: there is none.
+  std::filesystem::path graphs = {};
   /// See AssetLibrary::open; of no influence on any frame.
   std::filesystem::path copies = {};
 };

@@ -5,17 +5,17 @@
 #include <fmt/format.h>
 
 #include "annotate/amodal.h"
+#include "base/clock.h"
 #include "base/files.h"
 #include "campaign/worker_requests.h"
+#include "draws/graphs.h"
 #include "frames/rendered_frame.h"
+#include "frames/take_rendered.h"
 #include "image/color_management.h"
 #include "image/pixel_hash.h"
 #include "picture/pixel_scaling.h"
 #include "preview/twin_shading.h"
-#include "sensor/camera_sensor.h"
-#include "spec/frame_spec_reader.h"
 #include "spec/scaled_view.h"
-#include "twin/twin_comparison.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
@@ -41,16 +41,20 @@ Status still_wanted(const FrameOrder& order) {
 }  // namespace
 
 FrameMaker::FrameMaker(const PreparedCampaign& prepared, int threads, fs::path scratch,
-                       SetUp set_up)
+                       SetUp set_up, FrameKeeper* keeper)
     : prepared_(prepared),
       scratch_(std::move(scratch)),
       set_up_(std::move(set_up)),
+      keeper_(keeper),
+      finisher_(prepared.settings.categories, prepared.settings.twin_check, 1,
+                prepared.settings.image_encoding),
       queue_(std::make_unique<FinishQueue>(threads)) {}
 
 FrameMaker::~FrameMaker() {
   if (pool_) pool_->drain();
   if (pool_thread_.joinable()) pool_thread_.join();
   queue_.reset();
+  if (keeper_ != nullptr) keeper_->wait();
 }
 
 void FrameMaker::make(FrameOrder order) {
@@ -70,32 +74,17 @@ void FrameMaker::begin(FrameOrder order) {
   std::int64_t number = 0;
   {
     const std::lock_guard lock(mutex_);
-    if (Status started = start_pool(); !started) {
-      return order.done(forward_error(started));
-    }
+    if (Status able = can_render(); !able) return order.done(forward_error(able));
     number = ++last_number_;
-    renderings_[number] =
-        std::make_shared<Rendering>(Rendering{std::move(order), std::move(*frame), begun});
+    renderings_[number] = std::make_shared<Rendering>(
+        Rendering{.order = std::move(order), .frame = std::move(*frame), .begun = begun});
   }
   pool_->add({number});
 }
 
 Result<ExpandedFrame> FrameMaker::expand(const FrameRequest& request) const {
-  Result<ExpandedFrame> frame =
-      prepared_.expander.expand_given(request.scene, request.values, "values", {.id = false});
-  if (!frame) return frame;
-  RenderSettings& render = frame->spec.render;
-  if (request.samples) render.samples = *request.samples;
-  if (request.crop) {
-    if (request.crop->end_x() > render.width || request.crop->end_y() > render.height) {
-      return fail(ErrorKind::kInput, "crop: it reaches beyond the image of {} × {} pixels",
-                  render.width, render.height);
-    }
-    render.region = request.crop;
-  }
-  if (request.depth) render.depth = true;
-  frame->id = frame_id(frame->spec);
-  return frame;
+  return prepared_.expander.expand_given(request.scene, request.values, request.rendering,
+                                         "values");
 }
 
 Result<MadeFrame> FrameMaker::trace(const FrameRequest& request, const ExpandedFrame& frame) {
@@ -135,6 +124,11 @@ Status FrameMaker::shade(const ExpandedFrame& frame, MadeFrame& made) {
 
 // ---- Rendered frames ----
 
+Status FrameMaker::can_render() {
+  if (Status started = start_pool(); !started) return started;
+  return keeper_ != nullptr ? keeper_->check_room() : Status();
+}
+
 Status FrameMaker::start_pool() {
   if (pool_ || !pool_state_) return pool_state_;
   Result<RunSetup> setup = set_up_();
@@ -144,10 +138,14 @@ Status FrameMaker::start_pool() {
     return pool_state_;
   }
   setup_ = std::move(*setup);
+  if (keeper_ != nullptr) {
+    if (Status begun = keeper_->begin(*setup_); !begun) return pool_state_ = begun;
+  }
   setup_->options.pool.stays = true;
   executor_ =
       std::make_unique<LocalExecutor>(worker_options(setup_->options, scratch_, [this](int worker) {
-        return scratch_ / fmt::format("worker-{}.log", worker);
+        return keeper_ != nullptr ? keeper_->files().worker_log(worker)
+                                  : scratch_ / fmt::format("worker-{}.log", worker);
       }));
   RenderClient& client = *this;
   pool_ = std::make_unique<WorkerPool>(setup_->options.pool, *executor_, client);
@@ -167,8 +165,12 @@ Status FrameMaker::start_pool() {
   return {};
 }
 
-fs::path FrameMaker::passes_of(const FrameJob& job) const {
-  return scratch_ / fmt::format("{}-{}.exr", job.frame, job.attempt);
+fs::path FrameMaker::given_folder(const FrameJob& job) const {
+  return scratch_ / CampaignFiles::attempt_name(job.frame, job.attempt);
+}
+
+fs::path FrameMaker::attempt_folder(const FrameJob& job) const {
+  return keeper_ != nullptr ? keeper_->files().attempt(job.frame, job.attempt) : given_folder(job);
 }
 
 std::shared_ptr<FrameMaker::Rendering> FrameMaker::rendering_of(std::int64_t number) {
@@ -189,12 +191,35 @@ void FrameMaker::answer(std::int64_t number, Result<MadeFrame> made) {
 Result<std::optional<RenderRequest>> FrameMaker::request(const FrameJob& job) {
   const std::shared_ptr<Rendering> rendering = rendering_of(job.frame);
   if (rendering == nullptr) return fail(ErrorKind::kInput, "it is over");
-  if (Status wanted = still_wanted(rendering->order); !wanted) return forward_error(wanted);
-  Result<RenderRequest> request = make_render_request(
-      rendering->frame, passes_of(job),
+  Result<RenderRequest> request = prepare(job, *rendering);
+  if (request) return std::move(*request);
+  // Of this frame alone, whatever it is: the pool would end for a disk that is full.
+  answer(job.frame, forward_error(request));
+  return fail(ErrorKind::kInput, "it is over");
+}
+
+Result<RenderRequest> FrameMaker::prepare(const FrameJob& job, const Rendering& rendering) const {
+  if (Status wanted = still_wanted(rendering.order); !wanted) return forward_error(wanted);
+  if (Status made = make_folders_in(scratch_, given_folder(job)); !made) {
+    return forward_error(made);
+  }
+  return make_render_request(
+      rendering.frame, rendered_passes(given_folder(job)),
       [this](const std::string& sha256) { return scratch_ / (sha256 + ".mesh"); });
-  if (!request) return forward_error(request);
-  return std::move(*request);
+}
+
+void FrameMaker::worker_ready(int worker, const ReadyMessage& ready) {
+  const std::lock_guard lock(mutex_);
+  ready_[worker] = ready;
+}
+
+void FrameMaker::started(const FrameJob& job, int worker) {
+  const std::lock_guard lock(mutex_);
+  const auto found = renderings_.find(job.frame);
+  if (found == renderings_.end()) return;
+  found->second->worker = worker;
+  found->second->started = unix_time();
+  found->second->made_by = ready_[worker];
 }
 
 void FrameMaker::rendered(const FrameJob& job, const RenderTimings& timings, int) {
@@ -203,66 +228,96 @@ void FrameMaker::rendered(const FrameJob& job, const RenderTimings& timings, int
 
 void FrameMaker::finish(const FrameJob& job, const RenderTimings& timings) {
   const std::shared_ptr<Rendering> rendering = rendering_of(job.frame);
-  const fs::path passes = passes_of(job);
-  Result<MadeFrame> made = rendering ? read(*rendering, passes) : Result<MadeFrame>(cancelled());
+  Status finished = rendering ? still_wanted(rendering->order) : cancelled();
+  if (finished) finished = finish(job, timings, *rendering);
+  if (!finished) settle(job, forward_error(finished));
+}
+
+Status FrameMaker::finish(const FrameJob& job, const RenderTimings& timings,
+                          const Rendering& rendering) {
+  const FrameRequest& request = rendering.order.request;
+  const FrameSpec& spec = rendering.frame.spec;
+  const FinishTask task{spec, rendering.frame.id, rendering.frame.meshes, attempt_folder(job),
+                        fs::path()};
+  if (keeper_ != nullptr) {
+    const Status taken =
+        take_rendered(scratch_, given_folder(job).filename().string(), task.attempt_folder);
+    if (!taken) return taken;
+  }
+  Result<DevelopedFrame> frame =
+      finisher_.develop(task, *setup_->color, request.labels || keeper_ != nullptr);
+  if (!frame) return forward_error(frame);
+  Result<FinishedFrame> finished = FinishedFrame{};
+  if (keeper_ != nullptr) finished = finisher_.write(task, *frame);
+  if (!finished) return forward_error(finished);
+  MadeFrame made;
+  made.frame_id = task.frame_id;
+  made.width = spec.render.width;
+  made.height = spec.render.height;
+  made.worker_s = timings.build_s + timings.render_s;
+  made.pixel_hashes = frame->pixel_hashes();
+  if (request.labels) made.labels = std::move(frame->labels);
+  if (request.image) made.image = std::move(frame->image);
+  if (request.depth) made.depth = std::move(frame->passes.depth);
+  if (request.ids) made.ids = std::move(frame->passes.instance_ids);
+  if (keeper_ == nullptr) {
+    settle(job, std::move(made));
+  } else {
+    keep(job, timings, rendering, task, *finished, std::move(made));
+  }
+  return {};
+}
+
+void FrameMaker::keep(const FrameJob& job, const RenderTimings& timings, const Rendering& rendering,
+                      const FinishTask& task, const FinishedFrame& finished, MadeFrame made) {
+  const FrameRequest& request = rendering.order.request;
+  FrameToKeep frame;
+  frame.graph = graph_line(request.values, request.scene, request.rendering);
+  frame.frame_id = task.frame_id;
+  frame.used = rendering.frame.used;
+  frame.attempt = task.attempt_folder;
+  frame.finished = finished;
+  frame.timings = {timings.build_s, timings.render_s,
+                   std::max(0.0, unix_time() - rendering.started - made.worker_s)};
+  frame.worker = rendering.worker;
+  frame.started = rendering.started;
+  frame.made_by = rendering.made_by;
+  frame.failures = rendering.failures;
+  frame.done = [this, job, made = std::make_shared<MadeFrame>(std::move(made))](
+                   const Result<std::int64_t>& kept) {
+    if (!kept) return settle(job, forward_error(kept));
+    made->kept = *kept;
+    settle(job, std::move(*made));
+  };
+  keeper_->keep(std::move(frame));
+}
+
+void FrameMaker::settle(const FrameJob& job, Result<MadeFrame> made) {
   std::error_code ignored;
-  fs::remove(passes, ignored);
-  fs::remove(sharp_passes(passes), ignored);
+  for (const fs::path& folder : {given_folder(job), attempt_folder(job)}) {
+    fs::remove_all(folder, ignored);
+  }
   if (!made && made.error().kind == ErrorKind::kRender) {
     pool_->post_verdict(job, forward_error(made));  // tried again, or told by attempt_failed
     return;
   }
-  if (made) {
-    made->worker_s = timings.build_s + timings.render_s;
-    made->made_s = seconds_since(rendering->begun);
-    if (Status wanted = still_wanted(rendering->order); !wanted) made = forward_error(wanted);
-  }
+  const std::shared_ptr<Rendering> rendering = rendering_of(job.frame);
+  if (made && rendering) made->made_s = seconds_since(rendering->begun);
   answer(job.frame, std::move(made));
   pool_->post_verdict(job, {});
 }
 
-Result<MadeFrame> FrameMaker::read(const Rendering& rendering, const fs::path& passes_file) {
-  const FrameSpec& spec = rendering.frame.spec;
-  const FrameRequest& request = rendering.order.request;
-  Result<FramePasses> read = read_rendered_frame(spec, rendering.frame.id, passes_file);
-  if (!read) return forward_error(read);
-  FramePasses passes = on_whole_image(std::move(*read), spec.render);
-  MadeFrame made;
-  made.frame_id = rendering.frame.id;
-  made.width = spec.render.width;
-  made.height = spec.render.height;
-  made.pixel_hashes = passes.pixel_hashes;
-  Result<Image<std::uint8_t>> image = setup_->color->apply(passes.combined, spec.image);
-  if (image && spec.sensor) image = through_sensor(*image, *spec.sensor);
-  if (!image) return forward_error(image);
-  made.pixel_hashes["image"] = pixel_hash(*image, "R,G,B");
-  const Result<Twin> twin =
-      tracer_.trace(spec, rendering.frame.meshes, TwinTracer::Passes::kIdsOnly);
-  if (!twin) return forward_error(twin);
-  const TwinCheck& check = prepared_.settings.twin_check;
-  if (check.wanted && spec.labels.twin_exact) {
-    const TwinVerdict verdict = compare_with_twin(spec, passes.instance_ids, twin->instance_ids,
-                                                  check.tolerance, rounding_of(*twin));
-    if (!verdict.complaint.empty()) return fail(ErrorKind::kRender, "{}", verdict.complaint);
-  }
-  if (request.labels) {
-    Result<FrameLabels> labels =
-        make_labels(spec, prepared_.settings.categories, passes.instance_ids);
-    if (!labels) return forward_error(labels);
-    add_amodal_labels(*labels, spec, *twin, passes.instance_ids);
-    made.labels = std::move(*labels);
-  }
-  if (request.image) made.image = std::move(*image);
-  if (request.depth) made.depth = std::move(passes.depth);
-  if (request.ids) made.ids = std::move(passes.instance_ids);
-  return made;
-}
-
 void FrameMaker::attempt_failed(const FrameJob& job, const AttemptFailure& failure) {
-  if (failure.consequence == Consequence::kRetry) return;
-  const bool asked_for = failure.failure == Failure::kAnswered;
-  answer(job.frame, tl::unexpected(Error{asked_for ? ErrorKind::kInput : ErrorKind::kRender,
-                                         failure.message}));
+  std::error_code ignored;
+  fs::remove_all(given_folder(job), ignored);
+  if (failure.consequence == Consequence::kRetry) {
+    const std::lock_guard lock(mutex_);
+    const auto found = renderings_.find(job.frame);
+    if (found != renderings_.end()) found->second->failures.push_back(failure);
+    return;
+  }
+  const Status disk = keeper_ != nullptr ? keeper_->check_disk() : Status();
+  answer(job.frame, disk ? fail(ErrorKind::kRender, "{}", failure.message) : forward_error(disk));
 }
 
 }  // namespace seedframe

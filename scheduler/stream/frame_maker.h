@@ -1,5 +1,5 @@
-// Makes frames for values of a config's variables, one by one, by whatever fidelity is asked for;
-// nothing of them stays.
+// Makes frames for values of a config's variables, one by one, by whatever fidelity is asked for.
+// Nothing of them stays, unless those that are rendered are to be kept (frame_keeper.h).
 #pragma once
 
 #include <atomic>
@@ -18,10 +18,12 @@
 #include "base/error.h"
 #include "campaign/finish_queue.h"
 #include "campaign/run_options.h"
+#include "frames/frame_finisher.h"
 #include "image/image.h"
 #include "render/local_executor.h"
 #include "render/worker_pool.h"
 #include "scene/prepared_campaign.h"
+#include "stream/frame_keeper.h"
 #include "stream/request.h"
 #include "twin/twin.h"
 
@@ -38,6 +40,7 @@ struct MadeFrame {
   std::map<std::string, std::string> pixel_hashes;  ///< as a campaign's manifest has them
   double made_s = 0.0;                              ///< from when it was begun
   double worker_s = 0.0;                            ///< of that in Blender
+  std::optional<std::int64_t> kept;                 ///< its number in the campaign that keeps it
 };
 
 /// Told once, by some thread of the maker's.
@@ -57,9 +60,10 @@ class FrameMaker : private RenderClient {
   using SetUp = std::function<Result<RunSetup>()>;
 
   /// `threads` trace or finish frames; files of a rendering are written into `scratch` and removed.
-  /// `prepared` must outlive it.
+  /// `keeper`: null, nothing is kept; else `scratch` is what its campaign gives to workers. They
+  /// must outlive it.
   FrameMaker(const PreparedCampaign& prepared, int threads, std::filesystem::path scratch,
-             SetUp set_up);
+             SetUp set_up, FrameKeeper* keeper = nullptr);
   /// Waits for what is under way.
   ~FrameMaker() override;
 
@@ -72,6 +76,11 @@ class FrameMaker : private RenderClient {
     FrameOrder order;
     ExpandedFrame frame;
     std::chrono::steady_clock::time_point begun;
+    // Of the last attempt, and those before it:
+    int worker = 0;
+    double started = 0.0;  ///< Unix time, seconds
+    ReadyMessage made_by = {};
+    std::vector<AttemptFailure> failures = {};
   };
 
   void begin(FrameOrder order);
@@ -80,27 +89,39 @@ class FrameMaker : private RenderClient {
   Status shade(const ExpandedFrame& frame, MadeFrame& made);
 
   Status start_pool();
+  Status can_render();
+  Result<RenderRequest> prepare(const FrameJob& job, const Rendering& rendering) const;
   void finish(const FrameJob& job, const RenderTimings& timings);
-  Result<MadeFrame> read(const Rendering& rendering, const std::filesystem::path& passes);
-  std::filesystem::path passes_of(const FrameJob& job) const;
+  Status finish(const FrameJob& job, const RenderTimings& timings, const Rendering& rendering);
+  void keep(const FrameJob& job, const RenderTimings& timings, const Rendering& rendering,
+            const FinishTask& task, const FinishedFrame& finished, MadeFrame made);
+  /// Where the worker writes, and where it is finished: a folder that no worker gets at if the
+  /// frame is kept.
+  std::filesystem::path given_folder(const FrameJob& job) const;
+  std::filesystem::path attempt_folder(const FrameJob& job) const;
   std::shared_ptr<Rendering> rendering_of(std::int64_t number);
+  /// After the worker is done with it.
+  void settle(const FrameJob& job, Result<MadeFrame> made);
   void answer(std::int64_t number, Result<MadeFrame> made);
 
   // What the pool asks and tells.
   Result<std::optional<RenderRequest>> request(const FrameJob& job) override;
-  void started(const FrameJob&, int) override {}
+  void started(const FrameJob& job, int worker) override;
   void rendered(const FrameJob& job, const RenderTimings& timings, int worker) override;
   void attempt_failed(const FrameJob& job, const AttemptFailure& failure) override;
   Status check_system() override { return {}; }
-  void worker_ready(int, const ReadyMessage&) override {}
+  void worker_ready(int worker, const ReadyMessage& ready) override;
 
   const PreparedCampaign& prepared_;
   std::filesystem::path scratch_;
   SetUp set_up_;
+  FrameKeeper* keeper_;
   TwinTracer tracer_;
+  FrameFinisher finisher_;
   std::mutex mutex_;  ///< guards what follows
   std::map<std::int64_t, std::shared_ptr<Rendering>> renderings_;
   std::int64_t last_number_ = 0;
+  std::map<int, ReadyMessage> ready_;  ///< what each worker said of itself
   Status pool_state_;
   std::optional<RunSetup> setup_;
   std::unique_ptr<LocalExecutor> executor_;

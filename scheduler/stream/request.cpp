@@ -1,7 +1,6 @@
 #include "stream/request.h"
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -12,8 +11,8 @@ namespace {
 
 constexpr std::array<const char*, 3> kFidelityNames = {"labels", "preview", "render"};
 const std::vector<std::string>& known_keys() {
-  static const std::vector<std::string> keys = {"id",      "values", "scene",      "fidelity",
-                                                "samples", "crop",   "deadline_s", "want"};
+  static const std::vector<std::string> keys = {
+      "id", "values", "scene", "fidelity", "samples", "denoise", "crop", "deadline_s", "want"};
   return keys;
 }
 
@@ -40,21 +39,6 @@ Status take_fidelity(const Json& value, FrameRequest& request) {
                value.dump().substr(0, 60));
 }
 
-Status take_crop(const Json& value, FrameRequest& request) {
-  std::array<int, 4> numbers{};
-  const bool four = value.is_array() && value.size() == 4;
-  for (std::size_t i = 0; four && i < 4; ++i) {
-    const auto number = integer_in<int>(value[i]);
-    if (!number || *number < 0 || (i > 1 && *number == 0)) {
-      return wrong("crop: expected [x, y, width, height] in pixels of the image");
-    }
-    numbers[i] = *number;
-  }
-  if (!four) return wrong("crop: expected [x, y, width, height] in pixels of the image");
-  request.crop = PixelRect{numbers[0], numbers[1], numbers[2], numbers[3]};
-  return {};
-}
-
 Status take_want(const Json& value, FrameRequest& request) {
   request.labels = false;
   if (!value.is_array()) return wrong("want: expected a list of labels, image, ids, depth");
@@ -66,7 +50,7 @@ Status take_want(const Json& value, FrameRequest& request) {
     } else if (each == "ids") {
       request.ids = true;
     } else if (each == "depth") {
-      request.depth = true;
+      request.depth = request.rendering.depth = true;
     } else {
       return wrong("want: there are labels, image, ids and depth, found {}",
                    each.dump().substr(0, 60));
@@ -85,7 +69,6 @@ Status take(const std::string& key, const Json& value, FrameRequest& request) {
     return {};
   }
   if (key == "fidelity") return take_fidelity(value, request);
-  if (key == "crop") return take_crop(value, request);
   if (key == "want") return take_want(value, request);
   if (key == "scene") {
     const auto scene = integer_in<std::uint32_t>(value);
@@ -95,15 +78,6 @@ Status take(const std::string& key, const Json& value, FrameRequest& request) {
     request.scene = *scene;
     return {};
   }
-  if (key == "samples") {
-    constexpr int kMostSamples = 1 << 16;
-    const auto samples = integer_in<int>(value);
-    if (!samples || *samples < 1 || *samples > kMostSamples) {
-      return wrong("samples: expected a whole number from 1 to {}", kMostSamples);
-    }
-    request.samples = *samples;
-    return {};
-  }
   if (key == "deadline_s") {
     if (!value.is_number() || !(value.get<double>() > 0.0)) {
       return wrong("deadline_s: expected seconds, more than 0");
@@ -111,6 +85,10 @@ Status take(const std::string& key, const Json& value, FrameRequest& request) {
     request.deadline_s = value.get<double>();
     return {};
   }
+  const Result<bool> taken = key == "depth" ? Result<bool>(false)  // that is wanted, not said here
+                                            : take_rendering_wish(key, value, request.rendering);
+  if (!taken) return forward_error(taken);
+  if (*taken) return {};
   return wrong("unknown key '{}'{}", key, did_you_mean(key, known_keys()));
 }
 
@@ -122,8 +100,10 @@ Status check(const FrameRequest& request) {
     return wrong("fidelity labels has no image: ask for preview or render");
   }
   const bool renders = request.fidelity == Fidelity::kRender;
-  if (!renders && request.samples) return wrong("samples: only fidelity render has any");
-  if (!renders && request.crop) return wrong("crop: only fidelity render saves anything by it");
+  const RenderingWish& rendering = request.rendering;
+  if (!renders && rendering.samples) return wrong("samples: only fidelity render has any");
+  if (!renders && rendering.denoise) return wrong("denoise: only fidelity render has noise");
+  if (!renders && rendering.crop) return wrong("crop: only fidelity render saves anything by it");
   return {};
 }
 

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 
 #include "base/canonical_json.h"
 #include "base/error.h"
-#include "base/pixel_rect.h"
+#include "spec/rendering_wish.h"
 
 namespace seedframe {
 
@@ -26,11 +25,10 @@ struct FrameRequest {
   Json values = Json::object();  ///< of variables, as a line of graphs has them
   std::int64_t scene = 0;        ///< whose draws are made where nothing is given
   Fidelity fidelity = Fidelity::kLabels;
-  std::optional<int> samples;     ///< in place of render.samples
-  std::optional<PixelRect> crop;  ///< only these pixels are made; the others are black
-  double deadline_s = 0.0;        ///< from when it came; 0: none
-  bool labels = true;             ///< are told in the answer's line
-  bool image = false;             ///< and these handed over as arrays
+  RenderingWish rendering;  ///< of fidelity render, but for depth
+  double deadline_s = 0.0;  ///< from when it came; 0: none
+  bool labels = true;       ///< are told in the answer's line
+  bool image = false;       ///< and these handed over as arrays
   bool ids = false;
   bool depth = false;
 

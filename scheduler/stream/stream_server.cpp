@@ -67,6 +67,7 @@ Result<std::string> answer_line(const Json& id, const FrameRequest& request, con
                   {{"waited", std::max(0.0, waited_s - made.made_s)},
                    {"made", made.made_s},
                    {"worker", made.worker_s}}}};
+  if (made.kept) answer["kept"] = *made.kept;
   if (!arrays.empty()) answer["arrays"] = arrays.to_json();
   std::string line = answer.dump();
   if (made.labels) {
@@ -295,6 +296,7 @@ std::string StreamServer::ready_line() const {
                 {"height", settings.render.height},
                 {"categories", settings.categories},
                 {"most_open", options_.most_open},
+                {"kept", options_.kept ? Json(*options_.kept) : Json()},
                 {"variables", variables ? *variables : Json()}}}}
       .dump();
 }

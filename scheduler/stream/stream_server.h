@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct StreamOptions {
   int most_unreleased = 256;              ///< answers of a client whose arrays it still has
   double heartbeat_s = 10.0;              ///< to clients to whom nothing else was said; 0: none
   std::filesystem::path socket;           ///< to be made; empty: stdin and stdout
+  std::optional<std::int64_t> kept;       ///< frames that are there already; none: nothing is kept
 };
 
 class StreamServer {

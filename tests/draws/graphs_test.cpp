@@ -107,6 +107,63 @@ TEST_F(GraphsTest, WhatIsGivenIsWhatTheFrameShows) {
   EXPECT_NEAR(apart.norm(), 2.0, 1e-12);
 }
 
+TEST_F(GraphsTest, ALineMayNameTheSceneWhoseDrawsAreLeft) {
+  const auto drawn = frames("{}\n{}\n{}\n");
+  const auto named = frames("{\"@scene\": 2}\n{\"@scene\": 0}\n{\"@scene\": 2, \"reach\": 0.5}\n");
+  EXPECT_EQ(named.at(0).id, drawn.at(2).id);
+  EXPECT_EQ(named.at(1).id, drawn.at(0).id);
+  EXPECT_EQ(named.at(2).graph.at("reach"), 0.5);
+  EXPECT_EQ(named.at(2).graph.at("turn"), drawn.at(2).graph.at("turn"));
+  EXPECT_EQ(named.at(2).scene, 2) << "in the campaign it is that of its line";
+}
+
+TEST_F(GraphsTest, ALineMaySayHowItIsRendered) {
+  const auto made = frames(
+      R"({"@render": {"samples": 9, "denoise": true, "crop": [1, 2, 30, 40], "depth": true}})"
+      "\n{}\n"
+      R"({"@render": {"denoise": false}})",
+      "render: {denoise: oidn_fast}\n");
+  const RenderSettings& first = made.at(0).spec.render;
+  EXPECT_EQ(first.samples, 9);
+  EXPECT_EQ(first.denoise, Denoise::kOidnFast) << "the config's own";
+  EXPECT_EQ(first.region, (PixelRect{1, 2, 30, 40}));
+  EXPECT_TRUE(first.depth);
+  EXPECT_EQ(made.at(1).spec.render.denoise, Denoise::kOidnFast);
+  EXPECT_FALSE(made.at(1).spec.render.depth);
+  EXPECT_EQ(made.at(2).spec.render.denoise, Denoise::kOff);
+  EXPECT_EQ(frames(R"({"@render": {"denoise": true}})").at(0).spec.render.denoise, Denoise::kOidn);
+}
+
+TEST_F(GraphsTest, WhatALineSaysBesideValuesIsChecked) {
+  EXPECT_THAT(error(R"({"@scene": -1})"), HasSubstr("@scene: expected a whole number"));
+  EXPECT_THAT(error(R"({"@render": 3})"), HasSubstr("@render: expected an object"));
+  EXPECT_THAT(error(R"({"@render": {"sampels": 3}})"), HasSubstr("did you mean 'samples'?"));
+  EXPECT_THAT(error(R"({"@render": {"samples": 0}})"), HasSubstr("from 1 to 65536"));
+  EXPECT_THAT(error(R"({"@render": {"denoise": "oidn"}})"), HasSubstr("true or false"));
+  EXPECT_THAT(error(R"({"@render": {"crop": [0, 0, 100000, 1]}})"),
+              HasSubstr("reaches beyond the image"));
+  EXPECT_THAT(error(R"({"@render": {"crop": [2147483647, 0, 2147483647, 1]}})"),
+              HasSubstr("reaches beyond the image"));
+}
+
+TEST_F(GraphsTest, OfAFileThatGrowsOnlyWholeLinesCount) {
+  const auto size = [&](const std::string& text) {
+    write(text);
+    const auto graphs = Graphs::open(file(), Graphs::Kind::kGrowing);
+    return graphs ? graphs->size() : -1;
+  };
+  EXPECT_EQ(size(""), 0);
+  EXPECT_EQ(size("{}"), 0);
+  EXPECT_EQ(size("{}\n{\"@sc"), 1);
+  EXPECT_EQ(size("{}\n{}\n"), 2);
+}
+
+TEST(GraphLine, IsReadBackAsItWasAsked) {
+  EXPECT_EQ(graph_line(Json{{"turn", 0.1}}, 7, {}), R"({"@scene":7,"turn":0.1})");
+  EXPECT_EQ(graph_line(Json::object(), 0, {.samples = 4, .denoise = false}),
+            R"({"@render":{"denoise":false,"samples":4},"@scene":0})");
+}
+
 TEST_F(GraphsTest, AListHasAValueForEachCopyAndASingleValueIsForAll) {
   const Json graph = frames(R"({"objects.boxes.spin": [10, 20], "objects.boxes.at": [1, 2, 3],)"
                             R"( "objects.boxes.objects.lids.tilt": [1, 2, 3, 4, 99]})")
