@@ -32,6 +32,13 @@ class Async(ProgramTest):
         self.assertEqual(plain, expected)
         self.assertEqual(other, expected)
 
+    def test_frames_are_kept(self):
+        async def work():
+            async with AsyncStream(self.config, "render", blender=FAKE_BLENDER, keep=self.folder / "kept") as stream:
+                return (await stream.frame({"turn": 3})).kept
+
+        self.assertEqual(asyncio.run(work()), 0)
+
     def test_as_they_are_made(self):
         async def work():
             async with AsyncStream(self.config) as stream:

@@ -63,6 +63,27 @@ class Streams(ProgramTest):
                 if fidelity == "render":
                     np.testing.assert_array_equal(made.image, stored.image)
 
+    def test_what_is_rendered_is_kept_if_it_is_to_be(self):
+        folder = self.folder / "kept"
+        with Stream(self.config, "render", 2, blender=FAKE_BLENDER, keep=folder) as stream:
+            frames = list(stream.render([{"turn": 10}, {"turn": 20}, Request({"turn": 30}, denoise=True, samples=3)]))
+            self.assertEqual({frame.kept for frame in frames}, {0, 1, 2})
+            self.assertIsNone(stream.submit({}, fidelity="labels").result().kept)
+            again = stream.submit({"turn": 20}, scene=1).result()
+            self.assertEqual(again.kept, frames[1].kept)
+        campaign = seedframe.Campaign(folder)
+        self.assertEqual((len(campaign), campaign.total), (3, 3))
+        for frame in frames:
+            stored = campaign[frame.kept]
+            self.assertEqual(stored.frame_id, frame.frame_id)
+            np.testing.assert_array_equal(stored.image, frame.image)
+        self.assertEqual(campaign[frames[2].kept].spec["render"]["denoise"], "oidn")
+        self.assertEqual(campaign[frames[2].kept].spec["render"]["samples"], 3)
+        seedframe.resume(folder, blender=FAKE_BLENDER)
+        with self.assertRaises(Error) as refused:
+            Stream(self.config, set={"seed": 5}, keep=folder)
+        self.assertEqual(refused.exception.kind, "input")
+
     def test_numpy_values_and_requests(self):
         with Stream(self.config) as stream:
             plain = stream.submit({"turn": 30, "height": 0.25}).result()

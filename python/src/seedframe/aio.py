@@ -27,10 +27,17 @@ class AsyncStream:
         set: Mapping[str, Any] | None = None,
         want: Sequence[str] | None = None,
         blender: str | None = None,
+        keep: StrPath | None = None,
         options: Sequence[str] = (),
     ) -> None:
         self._arguments: tuple[Any, ...] = (config, fidelity, workers)
-        self._options: dict[str, Any] = {"set": set, "want": want, "blender": blender, "options": options}
+        self._options: dict[str, Any] = {
+            "set": set,
+            "want": want,
+            "blender": blender,
+            "keep": keep,
+            "options": options,
+        }
         self._opened: Stream | None = None
 
     async def __aenter__(self) -> AsyncStream:

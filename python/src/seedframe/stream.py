@@ -8,19 +8,14 @@ import weakref
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Callable, Literal, Union, overload
-
-import numpy as np
-import numpy.typing as npt
 
 from ._channel import Channel
 from ._memory import Shelf
 from ._open_request import FrameFuture
 from .errors import Error
-from .labels import Labels
 from .program import StrPath, set_arguments
-from .views import FrameViews
+from .stream_frame import Batch, StreamFrame
 
 
 @dataclass(frozen=True)
@@ -31,127 +26,13 @@ class Request:
     scene: int | None = None  #: whose draws are made for what is left out
     fidelity: str | None = None  #: "labels", "preview" or "render"
     samples: int | None = None  #: per pixel, of "render" alone
+    denoise: bool | None = None  #: of "render" alone; True: as ``render.denoise`` says, or by "oidn" where that is off
     crop: tuple[int, int, int, int] | None = None  #: x, y, width, height: only these pixels are made, of "render" alone
     want: Sequence[str] | None = None  #: of "labels", "image", "ids", "depth"
     deadline_s: float | None = None  #: seconds after which it is an error
 
 
 Values = Union[Mapping[str, Any], Request]
-
-
-class StreamFrame(FrameViews):
-    """A frame that was made on demand. Its arrays are memory that the program filled, and live as long as they are used.
-
-    What the frame was not asked for (``want``) raises Error.
-    """
-
-    def __init__(self, answer: Mapping[str, Any], arrays: Mapping[str, npt.NDArray[Any]]) -> None:
-        self._answer = answer
-        self._arrays = arrays
-
-    def __repr__(self) -> str:
-        return f"StreamFrame({self.frame_id[:12]}, {self.fidelity}, {', '.join(self._arrays) or 'no arrays'})"
-
-    @property
-    def frame_id(self) -> str:
-        """SHA-256 of what was made, hexadecimal: that of `submit` for the same values."""
-        return str(self._answer["frame_id"])
-
-    @property
-    def fidelity(self) -> str:
-        """What made it: "labels", "preview" or "render"."""
-        return str(self._answer["fidelity"])
-
-    @property
-    def width(self) -> int:
-        """Pixels."""
-        return int(self._answer["width"])
-
-    @property
-    def height(self) -> int:
-        """Pixels."""
-        return int(self._answer["height"])
-
-    @property
-    def pixel_hashes(self) -> dict[str, str]:
-        """By pass, as a campaign's manifest has them."""
-        return dict(self._answer["pixel_hashes"])
-
-    @property
-    def seconds(self) -> dict[str, float]:
-        """``waited`` before it was begun, ``made`` from then on, ``worker``: of that in Blender."""
-        return dict(self._answer["seconds"])
-
-    @cached_property
-    def labels(self) -> Labels:
-        """What is known of its instances."""
-        if "labels" not in self._answer:
-            raise self._not_wanted("labels")
-        return Labels(self._answer["labels"])
-
-    @property
-    def image(self) -> npt.NDArray[np.uint8]:
-        """The picture: uint8, rows × columns × 3, sRGB. Not at fidelity "labels"."""
-        return self._array("image")
-
-    @property
-    def ids(self) -> npt.NDArray[np.uint16]:
-        """Which instance each pixel belongs to: uint16, rows × columns, 0 is background."""
-        return self._array("ids")
-
-    @property
-    def depth(self) -> npt.NDArray[np.float32]:
-        """Metres along the viewing axis: float32, rows × columns; 1e10 is background."""
-        return self._array("depth")
-
-    @cached_property
-    def semantic(self) -> npt.NDArray[np.uint8]:
-        """The category of each pixel, from `ids` and `labels`: uint8, rows × columns, 0 is background and distractors."""
-        return self._semantic_of_ids()
-
-    def _array(self, name: str) -> npt.NDArray[Any]:
-        if name not in self._arrays:
-            raise self._not_wanted(name)
-        return self._arrays[name]
-
-    def _not_wanted(self, name: str) -> Error:
-        return Error(f"this frame was not asked for its {name}: name '{name}' in want")
-
-
-class Batch:
-    """Some frames in a row, whose arrays are also one array each: the frames' own memory, nothing is copied."""
-
-    def __init__(self, frames: list[StreamFrame], arrays: Mapping[str, npt.NDArray[Any]]) -> None:
-        self.frames = frames
-        self._arrays = arrays
-
-    def __len__(self) -> int:
-        return len(self.frames)
-
-    @property
-    def labels(self) -> list[Labels]:
-        """Of each frame."""
-        return [frame.labels for frame in self.frames]
-
-    @property
-    def image(self) -> npt.NDArray[np.uint8]:
-        """uint8, frames × rows × columns × 3, sRGB; contiguous within a frame."""
-        return self._array("image")
-
-    @property
-    def ids(self) -> npt.NDArray[np.uint16]:
-        """uint16, frames × rows × columns, 0 is background; contiguous within a frame."""
-        return self._array("ids")
-
-    @property
-    def depth(self) -> npt.NDArray[np.float32]:
-        """float32, frames × rows × columns, metres; contiguous within a frame."""
-        return self._array("depth")
-
-    def _array(self, name: str) -> npt.NDArray[Any]:
-        if name not in self._arrays:
-            raise Error(f"these frames were not asked for their {name}: name '{name}' in want")
-        return self._arrays[name]
 
 
 class Stream:
@@ -170,6 +51,8 @@ class Stream:
         set: values of the config by their path, such as ``{"render.width": 128}``.
         want: of "labels", "image", "ids", "depth"; ``["labels"]``, and "image" where there is a picture, if it is None.
         blender: which one: a path, a name in PATH, or ``python:VENV``.
+        keep: folder of a campaign that what is rendered becomes: made, or gone on with if a stream of this config has made it.
+            A frame is on the disk when it is given; `StreamFrame.kept` is its number there.
         options: further ones of ``seedframe stream``.
 
     Raises:
@@ -186,10 +69,11 @@ class Stream:
         set: Mapping[str, Any] | None = None,
         want: Sequence[str] | None = None,
         blender: str | None = None,
+        keep: StrPath | None = None,
         options: Sequence[str] = (),
     ) -> None:
         arguments = [str(config), "--fidelity", fidelity, *set_arguments(set)]
-        for name, value in (("--workers", workers), ("--blender", blender)):
+        for name, value in (("--workers", workers), ("--blender", blender), ("--keep", keep)):
             if value is not None:
                 arguments += [name, str(value)]
         self._fidelity = fidelity
@@ -239,6 +123,7 @@ class Stream:
         scene: int | None = None,
         fidelity: str | None = None,
         samples: int | None = None,
+        denoise: bool | None = None,
         crop: tuple[int, int, int, int] | None = None,
         want: Sequence[str] | None = None,
         deadline_s: float | None = None,
@@ -247,7 +132,7 @@ class Stream:
 
         Args:
             values: of variables by name: numbers in the variable's unit, lists, texts; NumPy's are fine. Or a Request.
-            scene, fidelity, samples, crop, want, deadline_s: as in Request, and in place of what it says.
+            scene, fidelity, samples, denoise, crop, want, deadline_s: as in Request, and in place of what it says.
 
         Returns:
             Its future, for ``concurrent.futures.as_completed``, ``wait`` and the like. It gives the frame or raises Error:
@@ -262,6 +147,7 @@ class Stream:
             "scene": scene,
             "fidelity": fidelity,
             "samples": samples,
+            "denoise": denoise,
             "crop": crop,
             "want": want,
             "deadline_s": deadline_s,
@@ -276,7 +162,7 @@ class Stream:
         answered: Callable[[], None] | None = None,
     ) -> FrameFuture[StreamFrame]:
         message: dict[str, Any] = {"values": request.values if request.values is not None else {}}
-        for name in ("scene", "fidelity", "samples", "deadline_s"):
+        for name in ("scene", "fidelity", "samples", "denoise", "deadline_s"):
             value = getattr(request, name)
             if value is not None:
                 message[name] = value
