@@ -30,6 +30,7 @@ case $what in
     run kill_at_every_call.py --kinds labels --every 23
     run kill_at_every_call.py --kinds fake --every 97
     run fail_every_write.py --kinds labels --every 83
+    run kill_stream.py --every 37
     run worker_faults.py --faults 40
     ;;
   full)
@@ -37,6 +38,7 @@ case $what in
     reports=results/reliability
     run kill_at_every_call.py --report $reports/kill_at_every_call.md
     run fail_every_write.py --report $reports/fail_every_write.md
+    run kill_stream.py --report $reports/kill_stream.md
     run kill_scheduler.py --kills 1000 --blender fake --report $reports/kill_scheduler_fake.md
     run kill_scheduler.py --kills 30 --blender real --report $reports/kill_scheduler_real.md
     run worker_faults.py --faults 200 --report $reports/worker_faults.md

@@ -2,12 +2,20 @@
 # What takes too long for scripts/test.sh: run it for a night before a release.
 #
 #   scripts/soak.sh            all
-#   scripts/soak.sh NAME…      of campaign, fuzz, assets, slurm
+#   scripts/soak.sh NAME…      of campaign, fuzz, assets, slurm, stream
+#   scripts/soak.sh stream --requests N --preview N   with options of tests/reliability/stream_soak.py
 set -eu
 cd "$(dirname "$0")/.."
 export SEEDFRAME_CACHE=off  # what is rendered here is rendered
 ninja --quiet -C build/release seedframe
-[ $# -gt 0 ] || set -- campaign fuzz assets slurm
+soak_stream() {
+  echo "== a stream that is asked for very many frames"
+  tests/reliability/stream_soak.py --report results/reliability/stream.md "$@"
+}
+[ $# -gt 0 ] || set -- campaign fuzz assets slurm stream
+if [ "$1" = stream ]; then
+  case ${2:-} in --*) shift; soak_stream "$@"; exit ;; esac
+fi
 for name in "$@"; do
   case $name in
     campaign)
@@ -28,6 +36,7 @@ for name in "$@"; do
       tests/slurm/faults.py --report results/reliability/slurm.md
       tests/slurm/flaky.py --report results/reliability/slurm.md
       ;;
-    *) echo "soak.sh: there is no '$name': campaign, fuzz, assets, slurm" >&2; exit 2 ;;
+    stream) soak_stream ;;
+    *) echo "soak.sh: there is no '$name': campaign, fuzz, assets, slurm, stream" >&2; exit 2 ;;
   esac
 done

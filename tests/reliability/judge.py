@@ -22,7 +22,7 @@ MARKER = "SEEDFRAME_RELIABILITY"  # in the environment of the program and, inher
 
 # docs/formats/campaign.md: what there may be in a campaign that nobody works on.
 LAYOUT = re.compile(
-    r"campaign\.(yaml|lock|sqlite|sqlite-wal|sqlite-shm)|(provenance|nodes)\.json|logs/(serve\.log|worker-\d\d\.log(\.1)?|crash-\d{6,}-\d+\.log)"
+    r"campaign\.(yaml|lock|sqlite|sqlite-wal|sqlite-shm)|graphs\.jsonl|(provenance|nodes)\.json|logs/(serve\.log|worker-\d\d\.log(\.1)?|crash-\d{6,}-\d+\.log)"
     r"|frames/\d{3,}/\d{6,}/[a-z_.]+|rejected/\d{6,}/[a-z_.]+|exports/.*"
     r"|inputs/(inputs\.json|assets/[^/]+/(asset\.json|mesh\.drc))|report\.html|report_files/part-\d+\.js")
 
