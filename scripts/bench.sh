@@ -3,13 +3,13 @@
 # a bare loop in Blender, a worker's memory over 1,000 frames, how fast annotations are written, how large a report is and how soon it can be used, what a large store costs, how fast an audit reads,
 # how long the program takes to start, how many frames an hour all of it makes beside BlenderProc, what a second of rendering buys,
 # whether a stated error is kept, how much frames sparkle, what pictures of single objects cost, how costs grow with a scene, whether forecasts come true,
-# how a campaign grows with the nodes of a Slurm cluster,
+# how a campaign grows with the nodes of a Slurm cluster, how like a render a shaded preview is,
 # and what a detector that learns from the frames makes of their samples. Takes about two and a half hours
 # on two idle cores; on a busy machine longer, and then it measures the company.
 #
 #   scripts/bench.sh               all
 #   scripts/bench.sh NAME…         of error, quality, fireflies, patches, scaling, forecast, expansion, twin, frame, stability, overhead, memory, export, report, store, audit, startup,
-#                                  determinism, throughput, slurm, stream, detector
+#                                  determinism, throughput, slurm, stream, likeness, detector
 #   scripts/bench.sh detector-full the whole of results/detector, an hour, in place of a short version
 #   scripts/bench.sh quick         most of them, cut down to ten minutes in all, into build/quick/: does a change show?
 set -eu
@@ -33,7 +33,7 @@ if [ "${1:-}" = quick ]; then
   build/release/seedframe bench error configs/parts.yaml -o $quick/error --width 96 --frames 1 --budget 60s || failed=1
   exit $failed
 fi
-[ $# -gt 0 ] || set -- error quality fireflies patches scaling forecast expansion twin frame stability overhead memory export report store audit startup determinism throughput slurm stream detector
+[ $# -gt 0 ] || set -- error quality fireflies patches scaling forecast expansion twin frame stability overhead memory export report store audit startup determinism throughput slurm stream likeness detector
 failed=0
 for name in "$@"; do
   case $name in
@@ -62,6 +62,7 @@ for name in "$@"; do
     quality) tests/bench/quality.py --errors results/quality/errors.json --report results/quality/quality.md ;;
     fireflies) tests/bench/fireflies.py --report results/scenes/fireflies.md ;;  # 20 minutes
     stream) tests/bench/stream.py --report results/bench/stream.md ;;
+    likeness) tests/bench/preview_likeness.py --report results/bench/preview_likeness.md --picture results/bench/preview_likeness.jpg ;;
     startup) tests/bench/startup.py --report results/bench/startup.md ;;
     throughput) tests/bench/throughput.py --report results/bench/throughput.md ;;
     slurm) scripts/slurm-dev.sh install && tests/slurm/scaling.py --report results/scaling/slurm ;;

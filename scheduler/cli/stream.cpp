@@ -140,8 +140,8 @@ void add_stream_verb(CLI::App& app, const OnSelected& on_selected) {
   verb->add_option_function<std::string>(
           "--fidelity", set_fidelity,
           "of requests that do not say: labels (the twin: milliseconds), preview (the "
-          "twin, shaded: tens of milliseconds), render (Cycles: tenths of a second and "
-          "more)")
+          "twin, shaded with textures and shadows, without reflections: tens of "
+          "milliseconds), render (Cycles: tenths of a second and more)")
       ->check(CLI::IsMember({"labels", "preview", "render"}))
       ->default_str("labels");
   verb->add_option("--socket", options.socket,

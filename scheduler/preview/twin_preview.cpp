@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "picture/pixel_scaling.h"
+#include "preview/display_curve.h"
 #include "preview/twin_shading.h"
 #include "spec/scaled_view.h"
 #include "twin/twin.h"
@@ -13,15 +13,15 @@
 namespace seedframe {
 namespace {
 
-constexpr int kShadedPoints = 2;  // of a pixel, both ways
-
 struct Looked {
   PreviewedFrame frame;
   Shading shading;
+  ImageSettings settings;
 };
 
 Result<Looked> look_at(const SceneExpander& expander, const std::vector<std::string>& categories,
-                       std::int64_t index, int most_width, TwinTracer& tracer) {
+                       std::int64_t index, int most_width, TwinTracer& tracer,
+                       ShadingImages& images) {
   const Result<ExpandedFrame> expanded = expander.expand(index, {.id = false});
   if (!expanded) return forward_error(expanded);
   const int width = expanded->spec.render.width;
@@ -31,17 +31,15 @@ Result<Looked> look_at(const SceneExpander& expander, const std::vector<std::str
   if (!twin) return forward_error(twin);
   Result<FrameLabels> labels = make_labels(spec, categories, twin->instance_ids);
   if (!labels) return forward_error(labels);
-  // Of a whole number of points a pixel, whatever the sides were rounded to.
-  FrameSpec fine = scaled_view(spec, kShadedPoints);
-  fine.render.depth = fine.render.normal = true;
-  const Result<Twin> fine_twin = tracer.trace(fine, expanded->meshes, TwinTracer::Passes::kAsked);
-  if (!fine_twin) return forward_error(fine_twin);
+  Result<Shading> shading = shaded(spec, *expanded, tracer, images);
+  if (!shading) return forward_error(shading);
   Looked looked;
   looked.frame.index = index;
   looked.frame.scale = static_cast<double>(width) / spec.render.width;
   looked.frame.content.labels = std::move(*labels);
   looked.frame.content.instance_ids = twin->instance_ids;
-  looked.shading = shaded(fine, expanded->world_from_camera, *fine_twin);
+  looked.shading = std::move(*shading);
+  looked.settings = spec.image;
   return looked;
 }
 
@@ -52,22 +50,23 @@ Result<std::vector<PreviewedFrame>> preview_by_twin(const SceneExpander& expande
                                                     const std::vector<std::int64_t>& frames,
                                                     int most_width) {
   TwinTracer tracer;
+  ShadingImages images;
   std::vector<std::optional<Result<Looked>>> results(frames.size());
   tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-    results[i] = look_at(expander, categories, frames[i], most_width, tracer);
+    results[i] = look_at(expander, categories, frames[i], most_width, tracer, images);
   });
   std::vector<PreviewedFrame> previewed;
   std::vector<Shading> shadings;
+  std::vector<ImageSettings> settings;
   for (std::optional<Result<Looked>>& result : results) {
     if (!*result) return forward_error(*result);
     previewed.push_back(std::move((*result)->frame));
     shadings.push_back(std::move((*result)->shading));
+    settings.push_back(std::move((*result)->settings));
   }
   const double exposure = exposure_for(shadings);
   tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-    const Image<std::uint16_t>& ids = previewed[i].content.instance_ids;
-    previewed[i].content.image =
-        shrunk(shaded_display(shadings[i].light, exposure), ids.width, ids.height);
+    previewed[i].content.image = DisplayCurve(settings[i], exposure).display(shadings[i].light);
   });
   return previewed;
 }

@@ -1,110 +1,106 @@
 #include "preview/twin_shading.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
+
+#include "image/luminance.h"
+#include "preview/seen_points.h"
+#include "preview/surface_colors.h"
+#include "preview/surface_light.h"
+#include "spec/scaled_view.h"
+#include "twin/twin.h"
 
 namespace seedframe {
 namespace {
 
-using Eigen::Vector3d;
+using Eigen::Vector3f;
 
-/// Textures are not looked at: what has one is of this grey, times its colour.
-constexpr double kTexturedTone = 0.45;
-constexpr double kEnvironmentTone = 0.6;  // of an environment map, times its colour
+constexpr int kPointsOfPixel = 2;   // both ways
+constexpr int kBrightnessStep = 7;  // a seventh of the points tells enough
 
-Vector3d vector_of(const Rgb& color) { return {color[0], color[1], color[2]}; }
+/// The world of a frame: as far as the camera sees it, and as it lights surfaces.
+struct Surroundings {
+  Vector3f color = Vector3f::Zero();
+  Eigen::Matrix3f map_from_camera = Eigen::Matrix3f::Identity();
+  std::shared_ptr<const EnvironmentMap> map;  ///< none: the same everywhere
 
-/// The mean of its slots' materials.
-Vector3d albedo_of(const FrameSpec& spec, const InstanceSpec& instance) {
-  Vector3d sum = Vector3d::Zero();
-  for (const int slot : instance.materials) {
-    const MaterialSpec& material = spec.materials[static_cast<std::size_t>(slot)];
-    const double tone = material.textures.contains("color") ? kTexturedTone : 1.0;
-    sum += tone * vector_of(material.base_color);
+  Vector3f seen(const Vector3f& direction) const {
+    if (map == nullptr) return color;
+    return map->radiance(map_from_camera * direction).cwiseProduct(color);
   }
-  if (instance.materials.empty()) return Vector3d::Constant(0.5);
-  return sum / static_cast<double>(instance.materials.size());
+};
+
+Result<Surroundings> surroundings_of(const WorldSpec& world, const ExpandedFrame& frame,
+                                     ShadingImages& images) {
+  Surroundings around;
+  around.color = (world.strength * Eigen::Vector3d(world.color[0], world.color[1], world.color[2]))
+                     .cast<float>();
+  if (world.hdri.empty() || around.color.isZero()) return around;
+  around.map_from_camera = world.map_from_camera.cast<float>();
+  auto map = images.environment(*frame.used.images.at(world.hdri));
+  if (!map) return forward_error(map);
+  around.map = std::move(*map);
+  return around;
 }
 
-/// Irradiance of a surface that faces a light, as if it shone evenly to all sides of it.
-class Lamp {
- public:
-  explicit Lamp(const LightSpec& light)
-      : kind_(light.kind),
-        place_(light.camera_from_light.translation()),
-        back_(light.camera_from_light.linear().col(2).normalized()),
-        flux_(light.power * vector_of(light.color)),
-        edge_(std::cos(0.5 * light.angle_rad)) {}
+LightSources sources_of(const FrameSpec& spec, const Surroundings& around) {
+  LightSources sources;
+  sources.lamps = std::vector<Lamp>(spec.lights.begin(), spec.lights.end());
+  sources.ambient_color = around.color;
+  sources.ambient_from_camera = around.map_from_camera;
+  sources.ambient =
+      around.map != nullptr ? around.map->ambient() : AmbientLight::even(Vector3f::Ones());
+  return sources;
+}
 
-  Vector3d irradiance(const Vector3d& point, const Vector3d& normal) const {
-    if (kind_ == LightKind::kSun) return flux_ * std::max(0.0, normal.dot(back_));
-    const Vector3d to_light = place_ - point;
-    const double distance2 = std::max(to_light.squaredNorm(), 1e-9);
-    const Vector3d direction = to_light / std::sqrt(distance2);
-    const double facing = std::max(0.0, normal.dot(direction));
-    const double leaving = direction.dot(back_);  // cosine at the lamp
-    if (kind_ == LightKind::kSpot && leaving < edge_) return Vector3d::Zero();
-    const double aimed = kind_ == LightKind::kArea ? 4.0 * std::max(0.0, leaving) : 1.0;
-    return flux_ * (facing * aimed / (4.0 * std::numbers::pi * distance2));
-  }
-
- private:
-  LightKind kind_;
-  Vector3d place_, back_, flux_;
-  double edge_;
-};
-
-class Shader {
- public:
-  Shader(const FrameSpec& spec, const Affine& world_from_camera)
-      : spec_(spec),
-        up_(world_from_camera.linear().transpose().col(2).normalized()),
-        sky_(spec.world.strength * (spec.world.hdri.empty() ? 1.0 : kEnvironmentTone) *
-             vector_of(spec.world.color)) {
-    for (const LightSpec& light : spec.lights) lamps_.emplace_back(light);
-    for (const InstanceSpec& instance : spec.instances) {
-      albedo_by_id_[static_cast<std::size_t>(instance.id)] = albedo_of(spec, instance);
-    }
-  }
-
-  Vector3d sky() const { return sky_; }
-
-  Vector3d light_of(int row, int column, double depth, const Vector3d& normal, int id) const {
-    const CameraSpec& camera = spec_.camera;
-    const Vector3d point = {(column - camera.center_px[0]) / camera.focal_px[0] * depth,
-                            (camera.center_px[1] - row) / camera.focal_px[1] * depth, -depth};
-    Vector3d irradiance = std::numbers::pi * (0.6 + 0.4 * normal.dot(up_)) * sky_;
-    for (const Lamp& lamp : lamps_) irradiance += lamp.irradiance(point, normal);
-    return albedo_by_id_[static_cast<std::size_t>(id)].cwiseProduct(irradiance) / std::numbers::pi;
-  }
-
- private:
-  const FrameSpec& spec_;
-  Vector3d up_, sky_;
-  std::vector<Lamp> lamps_;
-  std::vector<Vector3d> albedo_by_id_ = std::vector<Vector3d>(65'536, Vector3d::Constant(0.5));
-};
+/// Of a pixel's centre, in the camera's frame; z is -1.
+Vector3f ray_of(const CameraSpec& camera, int row, int column) {
+  return Eigen::Vector3d((column - camera.center_px[0]) / camera.focal_px[0],
+                         (camera.center_px[1] - row) / camera.focal_px[1], -1.0)
+      .cast<float>();
+}
 
 }  // namespace
 
-Shading shaded(const FrameSpec& spec, const Affine& world_from_camera, const Twin& twin) {
-  constexpr int kBrightnessStep = 7;  // a seventh of the pixels tells enough
-  const Shader shader(spec, world_from_camera);
+Result<Shading> shaded(const FrameSpec& spec, const ExpandedFrame& frame, TwinTracer& tracer,
+                       ShadingImages& images) {
+  const FrameSpec fine = scaled_view(spec, kPointsOfPixel);
+  const Result<Twin> twin = tracer.trace(fine, frame.meshes, TwinTracer::Passes::kSurfaces);
+  if (!twin) return forward_error(twin);
+  const Result<SurfaceColors> colors = SurfaceColors::make(fine, frame, images);
+  if (!colors) return forward_error(colors);
+  const Result<Surroundings> around = surroundings_of(fine.world, frame, images);
+  if (!around) return forward_error(around);
+  const RayImage& rays = twin->rays();
+  const SeenPoints points(rays, fine.camera);
+  const std::vector<Vector3f> irradiance =
+      light_on(points, twin->scene(), *colors, sources_of(fine, *around));
   Shading shading{Image<float>(spec.render.width, spec.render.height, 3), {}};
-  for (int row = 0; row < spec.render.height; ++row) {
-    for (int column = 0; column < spec.render.width; ++column) {
-      const float* n = &twin.normal->at(row, column);
-      const Vector3d normal(n[0], n[1], n[2]);
-      const bool is_sky = normal.isZero();
-      const Vector3d seen = is_sky ? shader.sky()
-                                   : shader.light_of(row, column, twin.depth->at(row, column),
-                                                     normal, twin.instance_ids.at(row, column));
-      for (int c = 0; c < 3; ++c) shading.light.at(row, column, c) = static_cast<float>(seen[c]);
-      if (is_sky || (row + column) % kBrightnessStep != 0) continue;
-      shading.brightness.push_back(static_cast<float>(seen.dot(Vector3d(0.2126, 0.7152, 0.0722))));
+  for (int row = 0; row < rays.height; ++row) {
+    for (int column = 0; column < rays.width; ++column) {
+      const std::size_t pixel = rays.index(column, row);
+      Vector3f light;
+      if (rays.instance[pixel] < 0) {
+        light = around->seen(ray_of(fine.camera, row, column));
+      } else {
+        const auto at = static_cast<std::int32_t>(pixel);
+        const Vector3f ray = ray_of(fine.camera, row, column).normalized();
+        const Glance glance{points.pixel_width_m(at), std::abs(ray.dot(points.normal(at)))};
+        const auto instance = static_cast<std::size_t>(rays.instance[pixel]);
+        light =
+            colors->color(instance, rays.points[pixel], glance).cwiseProduct(irradiance[pixel]) /
+            std::numbers::pi_v<float>;
+        if ((row + column) % kBrightnessStep == 0) {
+          shading.brightness.push_back(
+              static_cast<float>(luminance(light.x(), light.y(), light.z())));
+        }
+      }
+      constexpr float kShare = 1.0F / (kPointsOfPixel * kPointsOfPixel);
+      Eigen::Map<Vector3f>(&shading.light.at(row / kPointsOfPixel, column / kPointsOfPixel)) +=
+          kShare * light;
     }
   }
   return shading;
@@ -112,7 +108,7 @@ Shading shaded(const FrameSpec& spec, const Affine& world_from_camera, const Twi
 
 double exposure_for(const std::vector<Shading>& shadings) {
   constexpr double kLitShare = 0.7;  // half of a round object may be in the dark
-  constexpr double kLitBrightness = 0.30;
+  constexpr double kLitBrightness = 0.25;
   std::vector<float> all;
   for (const Shading& shading : shadings) {
     std::copy_if(shading.brightness.begin(), shading.brightness.end(), std::back_inserter(all),
@@ -123,29 +119,6 @@ double exposure_for(const std::vector<Shading>& shadings) {
       all.begin() + static_cast<std::ptrdiff_t>(kLitShare * static_cast<double>(all.size()));
   std::nth_element(all.begin(), lit, all.end());
   return kLitBrightness / static_cast<double>(*lit);
-}
-
-Image<std::uint8_t> shaded_display(const Image<float>& light, double exposure) {
-  constexpr std::size_t kSteps = 1024;
-  static const std::array<std::uint8_t, kSteps + 1> code_by_step = [] {
-    std::array<std::uint8_t, kSteps + 1> codes{};
-    for (std::size_t i = 0; i <= kSteps; ++i) {
-      // What is bright is rolled off: 0 to 1 stands for 0 to infinity of light.
-      const double share = static_cast<double>(i) / kSteps;
-      const double display =
-          share <= 0.0031308 ? 12.92 * share : 1.055 * std::pow(share, 1.0 / 2.4) - 0.055;
-      codes[i] = static_cast<std::uint8_t>(std::lround(255.0 * display));
-    }
-    return codes;
-  }();
-  Image<std::uint8_t> display(light.width, light.height, 3);
-  std::transform(
-      light.values.begin(), light.values.end(), display.values.begin(), [&](float value) {
-        const double exposed = std::isfinite(value) ? std::max(0.0, exposure * value) : 0.0;
-        const double rolled = exposed * (1.0 + exposed / 9.0) / (1.0 + exposed);  // white at 3
-        return code_by_step[static_cast<std::size_t>(std::min(1.0, rolled) * kSteps)];
-      });
-  return display;
 }
 
 }  // namespace seedframe

@@ -137,13 +137,14 @@ bool RayScene::hides(const Eigen::Vector3d& point, double tolerance_m, int trans
 
 RayImage RayScene::trace(const TraceOptions& options) const {
   const PixelCamera& camera = scene_->camera;
-  RayImage image{camera.width, camera.height, {}, {}, {}};
+  RayImage image{camera.width, camera.height, {}, {}, {}, {}};
   const std::size_t pixels = image.index(0, camera.height);
   image.instance.resize(pixels);
   if (options.depth) image.depth.resize(pixels);
   if (options.normals) image.normals.resize(pixels);
+  if (options.points) image.points.resize(pixels);
   const bool portable_depth = options.depth && options.portable_depth;
-  const bool points_wanted = portable_depth || options.normals;
+  const bool points_wanted = portable_depth || options.normals || options.points;
   const std::vector<RayInstance> none;
   const HitPoints points(points_wanted ? scene_->instances : none);
   const NormalShader shader(options.normals ? scene_->instances : none);
@@ -168,6 +169,10 @@ RayImage RayScene::trace(const TraceOptions& options) const {
         const HitPoint point = points.at(packet, lane);
         if (portable_depth) image.depth[pixel] = static_cast<float>(point.depth);
         if (options.normals) image.normals[pixel] = shader.normal(packet, lane, point);
+        if (options.points) {
+          image.points[pixel] = {packet.rays.hit.primID[lane], static_cast<float>(point.u),
+                                 static_cast<float>(point.v)};
+        }
       }
     }
   });

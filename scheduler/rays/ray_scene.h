@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/pixel_rect.h"
@@ -17,11 +18,18 @@ namespace seedframe {
 struct RayInstance {
   std::shared_ptr<const RayMesh> mesh;
   Eigen::Affine3d camera_from_object = Eigen::Affine3d::Identity();
-  bool seen = true;  ///< false: rays of the camera pass through
+  bool seen = true;           ///< false: rays of the camera pass through
+  bool throws_shadow = true;  ///< false: rays of light pass through
 };
 
 /// Planar depth where a ray hits nothing: as in Blender's Depth pass.
 inline constexpr float kNoDepth = 1e10f;
+
+/// A point of a mesh.
+struct SurfacePoint {
+  std::uint32_t triangle = 0;
+  float u = 0.0F, v = 0.0F;  ///< shares of the triangle's second and third corner
+};
 
 /// What the image's pixels see, row by row from the top.
 struct RayImage {
@@ -30,6 +38,7 @@ struct RayImage {
   std::vector<std::int32_t> instance;         ///< index of an instance; -1: nothing
   std::vector<float> depth;                   ///< planar, metres; kNoDepth; empty: not asked for
   std::vector<std::array<float, 3>> normals;  ///< see TraceOptions; empty: not asked for
+  std::vector<SurfacePoint> points;           ///< of no meaning where nothing is hit; the same
 
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -44,7 +53,22 @@ struct TraceOptions {
   /// Shading normals in the camera's frame, of unit length, on the side that the ray comes from; 0
   /// where it hits nothing. The same bits on every CPU.
   bool normals = false;
+  bool points = false;  ///< the same bits on every CPU
   int threads = 1;
+};
+
+/// A ray of light, followed backwards from where it arrives.
+struct LightRay {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();       ///< in the camera's frame, metres
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of unit length
+  double length_m = std::numeric_limits<double>::infinity();
+};
+
+/// What a ray of light comes from.
+struct LightHit {
+  int instance = -1;  ///< index; -1: from nothing
+  std::uint32_t triangle = 0;
+  float distance_m = 0.0F;
 };
 
 /// The amodal mask of one instance: what it would show if nothing stood before it and the image
@@ -91,6 +115,13 @@ class RayScene {
 
   /// The same pixels whatever the number of threads.
   RayImage trace(const TraceOptions& options) const;
+
+  /// For each ray whether something that throws shadows is in its way. Not from several threads at
+  /// once, as find_hits.
+  void find_shadows(std::span<const LightRay> rays, std::span<std::uint8_t> in_shadow) const;
+
+  /// For each ray the first thing that throws shadows.
+  void find_hits(std::span<const LightRay> rays, std::span<LightHit> hits) const;
 
   /// Contains every pixel of the image that `image` gives to the instance and that is in `within`
   /// or near the instance. With the depth of `image`, which must be as trace() gave it, only what

@@ -76,6 +76,7 @@ RayScene::Scene::Scene(const PixelCamera& pixel_camera, std::vector<RayInstance>
 
 RayScene::Scene::~Scene() {
   rtcReleaseScene(all);
+  if (shades != nullptr) rtcReleaseScene(shades);
   for (const RTCScene scene : alone) {
     if (scene != nullptr) rtcReleaseScene(scene);
   }
@@ -104,6 +105,23 @@ RTCScene RayScene::Scene::only(std::size_t index) const {
     commit_scene(scene);
   }
   return scene;
+}
+
+RTCScene RayScene::Scene::throwing_shadows() const {
+  const bool same_as_seen =
+      std::all_of(instances.begin(), instances.end(),
+                  [](const RayInstance& each) { return each.seen == each.throws_shadow; });
+  if (same_as_seen) return all;
+  if (shades == nullptr) {
+    shades = new_embree_scene();
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+      if (instances[i].throws_shadow) {
+        attach(shades, instances[i], i, kEveryRay, camera.ray_start_m);
+      }
+    }
+    commit_scene(shades);
+  }
+  return shades;
 }
 
 }  // namespace seedframe

@@ -17,6 +17,7 @@ struct RayScene::Scene {
   std::vector<unsigned> masks;          ///< by instance, one bit
   RTCScene all = new_embree_scene();    ///< every seen instance, by its index
   mutable std::vector<RTCScene> alone;  ///< each by itself, made when asked for
+  mutable RTCScene shades = nullptr;    ///< see throwing_shadows
 
   Scene(const PixelCamera& pixel_camera, std::vector<RayInstance> seen_and_unseen);
   ~Scene();
@@ -24,6 +25,8 @@ struct RayScene::Scene {
   Scene& operator=(const Scene&) = delete;
 
   RTCScene only(std::size_t index) const;
+  /// The instances that throw shadows, each by its index.
+  RTCScene throwing_shadows() const;
   /// Whether no other instance has its mask where both might be seen: then rays of this mask are as
   /// good as a tree of its own.
   bool has_own_mask(std::size_t index) const;

@@ -13,15 +13,12 @@
 #include "frames/take_rendered.h"
 #include "image/color_management.h"
 #include "image/pixel_hash.h"
-#include "picture/pixel_scaling.h"
+#include "preview/display_curve.h"
 #include "preview/twin_shading.h"
-#include "spec/scaled_view.h"
 
 namespace seedframe {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr int kPointsOfPixel = 2;  // of a shaded one, both ways
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -112,13 +109,10 @@ Result<MadeFrame> FrameMaker::trace(const FrameRequest& request, const ExpandedF
 }
 
 Status FrameMaker::shade(const ExpandedFrame& frame, MadeFrame& made) {
-  FrameSpec fine = scaled_view(frame.spec, kPointsOfPixel);
-  fine.render.depth = fine.render.normal = true;
-  const Result<Twin> twin = tracer_.trace(fine, frame.meshes, TwinTracer::Passes::kAsked);
-  if (!twin) return forward_error(twin);
-  const Shading shading = shaded(fine, frame.world_from_camera, *twin);
-  const double exposure = std::exp2(frame.spec.image.exposure_stops);
-  made.image = shrunk(shaded_display(shading.light, exposure), made.width, made.height);
+  const Result<Shading> shading = shaded(frame.spec, frame, tracer_, images_);
+  if (!shading) return forward_error(shading);
+  const ImageSettings& settings = frame.spec.image;
+  made.image = DisplayCurve(settings, std::exp2(settings.exposure_stops)).display(shading->light);
   return {};
 }
 

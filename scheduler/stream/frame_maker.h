@@ -20,6 +20,7 @@
 #include "campaign/run_options.h"
 #include "frames/frame_finisher.h"
 #include "image/image.h"
+#include "preview/shading_images.h"
 #include "render/local_executor.h"
 #include "render/worker_pool.h"
 #include "scene/prepared_campaign.h"
@@ -118,6 +119,7 @@ class FrameMaker : private RenderClient {
   FrameKeeper* keeper_;
   TwinTracer tracer_;
   FrameFinisher finisher_;
+  ShadingImages images_;
   std::mutex mutex_;  ///< guards what follows
   std::map<std::int64_t, std::shared_ptr<Rendering>> renderings_;
   std::int64_t last_number_ = 0;

@@ -58,7 +58,7 @@ PixelCamera pixel_camera(const FrameSpec& spec) {
           spec.camera.center_px, spec.camera.clip_start_m, spec.camera.clip_end_m};
 }
 
-Twin::Twin(RayScene scene, RayImage image, Names names, bool with_depth)
+Twin::Twin(RayScene scene, RayImage image, Names names)
     : instance_ids(image.width, image.height),
       scene_(std::move(scene)),
       image_(std::move(image)),
@@ -69,8 +69,6 @@ Twin::Twin(RayScene scene, RayImage image, Names names, bool with_depth)
       [&](std::int32_t hit) {
         return static_cast<std::uint16_t>(hit < 0 ? 0 : ids_[static_cast<std::size_t>(hit)]);
       });
-  if (with_depth) depth = depth_image(image_);
-  if (!image_.normals.empty()) normal = normal_image(image_);
 }
 
 bool Twin::grazes(int row, int column, std::uint16_t id) const {
@@ -109,7 +107,7 @@ std::vector<Silhouette> Twin::silhouettes(const Image<std::uint16_t>& visible_id
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     if (ids_[i] != 0) index_of_id[ids_[i]] = static_cast<std::int32_t>(i);
   }
-  RayImage visible{visible_ids.width, visible_ids.height, {}, image_.depth, {}};
+  RayImage visible{visible_ids.width, visible_ids.height, {}, image_.depth, {}, {}};
   std::vector<PixelRect> extents(ids_.size());
   visible.instance.reserve(visible_ids.values.size());
   for (int y = 0; y < visible_ids.height; ++y) {
@@ -144,18 +142,24 @@ Result<Twin> TwinTracer::trace(const FrameSpec& spec, const MeshBuffers& buffers
       const auto& [mesh, origin] = *found;
       Eigen::Affine3d camera_from_mesh(instance.camera_from_object.matrix());
       camera_from_mesh.translate(origin);
-      instances.push_back({mesh, camera_from_mesh, !instance.hidden_from.camera});
+      instances.push_back(
+          {mesh, camera_from_mesh, !instance.hidden_from.camera, !instance.hidden_from.shadow});
       names.ids.push_back(instance.id);
       names.object_boxes.push_back({mesh->box().low + origin, mesh->box().high + origin});
     }
     trim();
     RayScene scene(pixel_camera(spec), std::move(instances));
-    const bool asked = passes == Passes::kAsked;
+    const bool surfaces = passes == Passes::kSurfaces;
+    const bool depth = passes == Passes::kAsked && spec.render.depth;
+    const bool normal = passes == Passes::kAsked && spec.render.normal;
     RayImage image = scene.trace({.depth = true,
-                                  .portable_depth = asked && spec.render.depth,
-                                  .normals = asked && spec.render.normal,
+                                  .portable_depth = depth || surfaces,
+                                  .normals = normal || surfaces,
+                                  .points = surfaces,
                                   .threads = threads_});
-    Twin twin(std::move(scene), std::move(image), std::move(names), asked && spec.render.depth);
+    Twin twin(std::move(scene), std::move(image), std::move(names));
+    if (depth) twin.depth = depth_image(twin.image_);
+    if (normal) twin.normal = normal_image(twin.image_);
     if (spec.render.region) twin.keep_only(*spec.render.region);
     return twin;
   } catch (const std::bad_alloc&) {

@@ -47,6 +47,10 @@ class Twin {
   /// RayScene::first_hits.
   std::vector<int> first_hits(int row, int column) const { return scene_.first_hits(column, row); }
 
+  /// What was traced, and what it was traced in. Instances are those of the spec, by their index.
+  const RayImage& rays() const { return image_; }
+  const RayScene& scene() const { return scene_; }
+
   /// Of an instance's mesh, in object space, metres.
   const BoundingBox& object_box(std::size_t instance) const { return object_boxes_[instance]; }
 
@@ -57,7 +61,7 @@ class Twin {
     std::vector<int> ids;
     std::vector<BoundingBox> object_boxes;
   };
-  Twin(RayScene scene, RayImage image, Names names, bool with_depth);
+  Twin(RayScene scene, RayImage image, Names names);
   /// Nothing is seen in the pixels outside.
   void keep_only(const PixelRect& region);
 
@@ -76,7 +80,8 @@ class TwinTracer {
 
   enum class Passes {
     kIdsOnly,
-    kAsked,  ///< depth and normal too when the spec asks for them
+    kAsked,     ///< depth and normal too when the spec asks for them
+    kSurfaces,  ///< of rays(): depth, normals and points
   };
   /// `buffers` holds those of the spec's meshes; a damaged or a missing one is an error, as is a
   /// lack of memory (kExhausted).

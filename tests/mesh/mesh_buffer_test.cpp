@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/sha256.h"
+#include "mesh/mesh_buffer_view.h"
 #include "tests/mesh/example_meshes.h"
 
 namespace seedframe {
@@ -29,6 +30,21 @@ TEST(MeshBuffer, HasTheBytesOfTheFormatPage) {
   EXPECT_EQ(bytes.substr(0, 8), "SFMESH01");
   EXPECT_EQ(bytes.substr(8, 16), std::string("\x08\0\0\0\x0c\0\0\0\x02\0\0\0\0\0\0\x3f", 16));
   EXPECT_EQ(sha256_hex(bytes), "c1bda86533e5f957aa03076d968adb415c10ae26c3e98179eb8f7d33cf4beba4");
+}
+
+TEST(MeshBuffer, IsLookedIntoWithoutBeingRead) {
+  const Mesh mesh = example_patch(3);
+  const std::string bytes = "x" + mesh_buffer(mesh);  // wherever it lies
+  const MeshBufferView view(std::string_view(bytes).substr(1));
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    EXPECT_EQ(view.triangle(t), mesh.triangles[t]);
+    EXPECT_EQ(view.slot(t), mesh.triangle_slots[t]);
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      EXPECT_EQ(view.uvs(t)[corner], mesh.corner_uvs[3 * t + corner]);
+    }
+  }
+  EXPECT_EQ(view.position(5), mesh.positions[5]);
+  EXPECT_EQ(MeshBufferView(mesh_buffer(example_cube())).slot(11), 1U);
 }
 
 TEST(MeshBuffer, RefusesEveryOtherLength) {

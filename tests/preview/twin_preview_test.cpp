@@ -101,15 +101,7 @@ TEST(TwinPreview, TellsWhichFrameIsImpossible) {
   EXPECT_FALSE(preview_by_twin(*expander, {}, {0}, 100));
 }
 
-TEST(ShadedDisplay, IsBlackOfNothingAndWhiteOfMuch) {
-  Image<float> light(3, 1, 1);
-  light.values = {0.0F, 1e9F, std::numeric_limits<float>::quiet_NaN()};
-  const Image<std::uint8_t> display = shaded_display(light, 1.0);
-  EXPECT_EQ(display.values[0], 0);
-  EXPECT_EQ(display.values[1], 255);
-  EXPECT_EQ(display.values[2], 0);
-  EXPECT_EQ(exposure_for({}), 1.0);
-}
+TEST(ExposureFor, NothingIsOne) { EXPECT_EQ(exposure_for({}), 1.0); }
 
 TEST(PreviewSheet, HasAFrameATileAndSaysSizesAndRemarks) {
   const std::vector<PreviewedFrame> frames = preview_of(ball("[0.8, 0.1, 0.1]"), {0, 1, 2});
