@@ -126,7 +126,7 @@ TEST_F(KeepTest, IsWhatTheConfigWouldMakeWithTheseSettings) {
   stream.hear();
   stream.hear();
   write("one.jsonl", "{}\n");
-  for (const std::string& denoised : {"oidn", "off"}) {
+  for (const std::string denoised : {"oidn", "off"}) {
     std::vector<std::string> submit = {"submit",    "line.yaml",
                                        "--set",     "graphs=one.jsonl",
                                        "--set",     "render.denoise=" + denoised,

@@ -212,7 +212,13 @@ def plain(lines, fidelity, rng, counts):
             continue
         answered += 1
         good = b'"frame_id"' in line and (answered % 500 != 1 or bool(json.loads(line)["labels"]["instances"]))
-        add(counts, 0 if good else 2)
+        judge(good, counts, line)
+
+
+def judge(good, counts, line, index=0):
+    add(counts, index if good else 2)
+    if not good:
+        print(f"not as it should be: {str(line)[:400]}", file=sys.stderr)
 
 
 def with_arrays(lines, fidelity, rng, counts):
@@ -227,7 +233,7 @@ def with_arrays(lines, fidelity, rng, counts):
             good = len(read) == arrays["bytes"] and arrays["ids"]["shape"] == [SIZE[1], SIZE[0]]
         except (OSError, KeyError):
             good = False
-        add(counts, 0 if good else 2)
+        judge(good, counts, answer)
         if rng.random() < 0.9:  # what is kept goes with the client
             lines.write(json.dumps({"release": number}).encode() + b"\n")
 
@@ -257,7 +263,8 @@ def wrong(lines, fidelity, rng, counts):
         lines.write(line)
     lines.flush()
     for _ in bad:
-        add(counts, 1 if "error" in read_answer(lines) else 2)
+        answer = read_answer(lines)
+        judge("error" in answer, counts, answer, 1)
     for number in range(20):
         lines.write(request(number, fidelity, rng))
     for number in range(20):
