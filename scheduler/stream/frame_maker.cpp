@@ -48,8 +48,10 @@ FrameMaker::FrameMaker(const PreparedCampaign& prepared, int threads, fs::path s
       queue_(std::make_unique<FinishQueue>(threads)) {}
 
 FrameMaker::~FrameMaker() {
-  if (pool_) pool_->drain();
-  if (pool_thread_.joinable()) pool_thread_.join();
+  for (const std::unique_ptr<Pool>& pool : pools_) {
+    pool->workers->drain();
+    pool->thread.join();
+  }
   queue_.reset();
   if (keeper_ != nullptr) keeper_->wait();
 }
@@ -75,8 +77,8 @@ void FrameMaker::begin(FrameOrder order) {
     number = ++last_number_;
     renderings_[number] = std::make_shared<Rendering>(
         Rendering{.order = std::move(order), .frame = std::move(*frame), .begun = begun});
+    pool_.load()->add({number});  // under the lock: the pool may be over by its end
   }
-  pool_->add({number});
 }
 
 Result<ExpandedFrame> FrameMaker::expand(const FrameRequest& request) const {
@@ -124,27 +126,44 @@ Status FrameMaker::can_render() {
 }
 
 Status FrameMaker::start_pool() {
-  if (pool_ || !pool_state_) return pool_state_;
+  if (pool_ != nullptr && pool_state_) return {};
+  // Room may come again. What else is missing does not, and is told to everyone who asks.
+  if (!pool_state_ && pool_state_.error().kind != ErrorKind::kExhausted) return pool_state_;
+  if (!setup_) {
+    Status set_up = set_up_rendering();
+    if (!set_up) return pool_state_ = set_up;
+  } else if (keeper_ != nullptr) {
+    if (Status disk = keeper_->check_disk(); !disk) return disk;
+  }
+  pool_state_ = {};
+  begin_pool();
+  return {};
+}
+
+Status FrameMaker::set_up_rendering() {
   Result<RunSetup> setup = set_up_();
-  if (!setup) {
-    // Told to everyone who asks for a rendering: what is missing does not come by asking again.
-    pool_state_ = forward_error(setup);
-    return pool_state_;
-  }
-  setup_ = std::move(*setup);
+  if (!setup) return forward_error(setup);
   if (keeper_ != nullptr) {
-    if (Status begun = keeper_->begin(*setup_); !begun) return pool_state_ = begun;
+    if (Status begun = keeper_->begin(*setup); !begun) return begun;
   }
-  setup_->options.pool.stays = true;
-  executor_ =
+  setup->options.pool.stays = true;
+  setup_ = std::move(*setup);
+  return {};
+}
+
+void FrameMaker::begin_pool() {
+  pools_.push_back(std::make_unique<Pool>());
+  Pool& pool = *pools_.back();
+  pool.executor =
       std::make_unique<LocalExecutor>(worker_options(setup_->options, scratch_, [this](int worker) {
         return keeper_ != nullptr ? keeper_->files().worker_log(worker)
                                   : scratch_ / fmt::format("worker-{}.log", worker);
       }));
   RenderClient& client = *this;
-  pool_ = std::make_unique<WorkerPool>(setup_->options.pool, *executor_, client);
-  pool_thread_ = std::jthread([this] {
-    const Result<RunSummary> run = pool_->run({});
+  pool.workers = std::make_unique<WorkerPool>(setup_->options.pool, *pool.executor, client);
+  pool_ = pool.workers.get();
+  pool.thread = std::jthread([this, workers = pool.workers.get()] {
+    const Result<RunSummary> run = workers->run({});
     std::map<std::int64_t, std::shared_ptr<Rendering>> left;
     {
       const std::lock_guard lock(mutex_);
@@ -156,7 +175,6 @@ Status FrameMaker::start_pool() {
       rendering->order.done(run ? Result<MadeFrame>(cancelled()) : forward_error(run));
     }
   });
-  return {};
 }
 
 fs::path FrameMaker::given_folder(const FrameJob& job) const {
@@ -292,13 +310,13 @@ void FrameMaker::settle(const FrameJob& job, Result<MadeFrame> made) {
     fs::remove_all(folder, ignored);
   }
   if (!made && made.error().kind == ErrorKind::kRender) {
-    pool_->post_verdict(job, forward_error(made));  // tried again, or told by attempt_failed
+    pool_.load()->post_verdict(job, forward_error(made));  // tried again, or told by attempt_failed
     return;
   }
   const std::shared_ptr<Rendering> rendering = rendering_of(job.frame);
   if (made && rendering) made->made_s = seconds_since(rendering->begun);
   answer(job.frame, std::move(made));
-  pool_->post_verdict(job, {});
+  pool_.load()->post_verdict(job, {});
 }
 
 void FrameMaker::attempt_failed(const FrameJob& job, const AttemptFailure& failure) {

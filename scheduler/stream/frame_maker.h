@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "annotate/labels.h"
 #include "base/error.h"
@@ -84,12 +85,21 @@ class FrameMaker : private RenderClient {
     std::vector<AttemptFailure> failures = {};
   };
 
+  /// Workers until there is no room for what they need: then the next request begins anew.
+  struct Pool {
+    std::unique_ptr<LocalExecutor> executor;
+    std::unique_ptr<WorkerPool> workers;
+    std::jthread thread;
+  };
+
   void begin(FrameOrder order);
   Result<ExpandedFrame> expand(const FrameRequest& request) const;
   Result<MadeFrame> trace(const FrameRequest& request, const ExpandedFrame& frame);
   Status shade(const ExpandedFrame& frame, MadeFrame& made);
 
   Status start_pool();
+  Status set_up_rendering();
+  void begin_pool();
   Status can_render();
   Result<RenderRequest> prepare(const FrameJob& job, const Rendering& rendering) const;
   void finish(const FrameJob& job, const RenderTimings& timings);
@@ -126,10 +136,9 @@ class FrameMaker : private RenderClient {
   std::map<int, ReadyMessage> ready_;  ///< what each worker said of itself
   Status pool_state_;
   std::optional<RunSetup> setup_;
-  std::unique_ptr<LocalExecutor> executor_;
-  std::unique_ptr<WorkerPool> pool_;
-  std::jthread pool_thread_;
-  std::unique_ptr<FinishQueue> queue_;  ///< its threads use all of the above
+  std::vector<std::unique_ptr<Pool>> pools_;  ///< those that are over, too: others may post to them
+  std::atomic<WorkerPool*> pool_ = nullptr;   ///< the last one
+  std::unique_ptr<FinishQueue> queue_;        ///< its threads use all of the above
 };
 
 }  // namespace seedframe
