@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-const std::string kConfig = R"(seedframe: 1
+const std::string kKeptConfig = R"(seedframe: 1
 name: line
 seed: 4
 scenes: 3
@@ -36,7 +36,7 @@ std::string request(int id, const std::string& more) {
 
 class KeepTest : public ProgramTest {
  protected:
-  void SetUp() override { write_config("line.yaml", kConfig); }
+  void SetUp() override { write_config("line.yaml", kKeptConfig); }
 
   static std::vector<std::string> keeping(const std::string& folder, int workers = 2) {
     return {"--keep", folder, "--blender", kFakeBlender, "--workers", std::to_string(workers)};
@@ -126,7 +126,7 @@ TEST_F(KeepTest, IsWhatTheConfigWouldMakeWithTheseSettings) {
   stream.hear();
   stream.hear();
   write("one.jsonl", "{}\n");
-  for (const std::string denoised : {"oidn", "off"}) {
+  for (const std::string& denoised : {std::string("oidn"), std::string("off")}) {
     std::vector<std::string> submit = {"submit",    "line.yaml",
                                        "--set",     "graphs=one.jsonl",
                                        "--set",     "render.denoise=" + denoised,
