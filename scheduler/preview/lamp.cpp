@@ -27,11 +27,18 @@ std::array<double, 2> half_size_of(const LightSpec& light) {
 
 }  // namespace
 
-std::array<double, 2> disc_point(std::size_t index, std::size_t count) {
-  constexpr double kGoldenAngle = 2.399963229728653;
-  const auto i = static_cast<double>(index);
-  const double radius = std::sqrt((i + 0.5) / static_cast<double>(count));
-  return {radius * std::cos(kGoldenAngle * i), radius * std::sin(kGoldenAngle * i)};
+const std::array<std::array<double, 2>, kLampPlaces>& disc_points() {
+  static const auto points = [] {
+    constexpr double kGoldenAngle = 2.399963229728653;
+    std::array<std::array<double, 2>, kLampPlaces> made{};
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      const double angle = kGoldenAngle * static_cast<double>(i);
+      const double radius = std::sqrt((static_cast<double>(i) + 0.5) / kLampPlaces);
+      made[i] = {radius * std::cos(angle), radius * std::sin(angle)};
+    }
+    return made;
+  }();
+  return points;
 }
 
 Lamp::Lamp(const LightSpec& light)
@@ -69,9 +76,9 @@ LightRay Lamp::ray_from(const Vector3d& point, std::size_t place) const {
     constexpr std::size_t kSide = 4;
     constexpr std::array<std::uint8_t, kLampPlaces> kCells = {0, 15, 3, 12, 5,  10, 6, 9,
                                                               1, 14, 7, 8,  13, 2,  4, 11};
-    const std::size_t cell = kCells[place];
-    const double x = (static_cast<double>(cell % kSide) + 0.5) / (0.5 * kSide) - 1.0;
-    const double y = (static_cast<double>(cell / kSide) + 0.5) / (0.5 * kSide) - 1.0;
+    const std::size_t column = kCells[place] % kSide, row = kCells[place] / kSide;
+    const double x = (static_cast<double>(column) + 0.5) / (0.5 * kSide) - 1.0;
+    const double y = (static_cast<double>(row) + 0.5) / (0.5 * kSide) - 1.0;
     const Vector3d to =
         place_ + half_size_[0] * x * axes_.col(0) + half_size_[1] * y * axes_.col(1) - point;
     const double length = to.norm();
@@ -80,7 +87,7 @@ LightRay Lamp::ray_from(const Vector3d& point, std::size_t place) const {
   // A ball or a sun is a disc that faces the surface.
   const bool is_sun = kind_ == LightKind::kSun;
   const Vector3d to_middle = is_sun ? Vector3d(axes_.col(2)) : Vector3d(place_ - point);
-  const auto [x, y] = disc_point(kLampPlaces - 1 - place, kLampPlaces);
+  const auto [x, y] = disc_points()[kLampPlaces - 1 - place];
   const Vector3d across = to_middle.unitOrthogonal();
   const Vector3d to =
       to_middle + half_size_[0] * (x * across + y * to_middle.normalized().cross(across));

@@ -37,7 +37,7 @@ class Lamp {
   std::array<double, 2> half_size_;  ///< metres along x and y; of a sun as seen from 1 m
 };
 
-/// Evenly over a disc of radius 1: point `index` of `count` (Vogel's spiral).
-std::array<double, 2> disc_point(std::size_t index, std::size_t count);
+/// Evenly over a disc of radius 1, the innermost first (Vogel's spiral).
+const std::array<std::array<double, 2>, kLampPlaces>& disc_points();
 
 }  // namespace seedframe

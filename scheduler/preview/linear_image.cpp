@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "image/png_file.h"
 #include "image_files/image_kind.h"
 #include "image_files/image_reader.h"
 
@@ -99,6 +100,25 @@ Result<Image<float>> read_linear_image(const std::filesystem::path& file, int mo
   }
   const Result<std::string> bytes = read_file(file);
   if (!bytes) return forward_error(bytes);
+  // Most are plain PNGs, which need no library that takes long to load.
+  if (*kind == ImageKind::kPng) {
+    const Result<Image<std::uint8_t>> plain = decode_png8(*bytes, file.string());
+    if (plain && (plain->channels == 1 || plain->channels == 3)) {
+      Reduction reduction(most_px, false);
+      const std::vector<std::string> names = plain->channels == 1
+                                                 ? std::vector<std::string>{"Y"}
+                                                 : std::vector<std::string>{"R", "G", "B"};
+      if (Status begun = reduction.begin({.width = plain->width,
+                                          .height = plain->height,
+                                          .stored = StoredValue::kUint8,
+                                          .channels = names});
+          !begun) {
+        return forward_error(begun);
+      }
+      if (Status added = reduction.add(0, *plain); !added) return forward_error(added);
+      return reduction.end();
+    }
+  }
   Reduction reduction(most_px, *kind == ImageKind::kExr || *kind == ImageKind::kHdr);
   ImageVisit visit;
   visit.header = [&](const ImageHeader& header) { return reduction.begin(header); };
@@ -118,16 +138,16 @@ std::uint8_t srgb_code(float light) {
   static const std::vector<std::uint8_t> code_by_step = [] {
     std::vector<std::uint8_t> codes(kSteps + 1);
     for (std::size_t step = 0; step <= kSteps; ++step) {
-      const double share = static_cast<double>(step) / kSteps;
+      const double share = std::min(1.0, (static_cast<double>(step) + 0.5) / kSteps);
       const double display =
           share <= 0.0031308 ? 12.92 * share : 1.055 * std::pow(share, 1.0 / 2.4) - 0.055;
       codes[step] = static_cast<std::uint8_t>(std::lround(255.0 * display));
     }
     return codes;
   }();
-  return code_by_step[static_cast<std::size_t>(std::clamp(light, 0.0F, 1.0F) * kSteps + 0.5F)];
+  return code_by_step[static_cast<std::size_t>(std::clamp(light, 0.0F, 1.0F) * kSteps)];
 }
 
-float srgb_light(std::uint8_t code) { return light_by_code()[code]; }
+const std::array<float, 256>& srgb_lights() { return light_by_code(); }
 
 }  // namespace seedframe

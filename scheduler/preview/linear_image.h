@@ -1,6 +1,8 @@
 // Image files as light: what is looked at from further away than it was made for.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 
 #include "base/error.h"
@@ -16,7 +18,7 @@ Result<Image<float>> read_linear_image(const std::filesystem::path& file, int mo
 
 /// IEC 61966-2-1, the nearest code of 8 bits; light beyond 0 to 1 has the code of the end.
 std::uint8_t srgb_code(float light);
-/// The light of a code.
-float srgb_light(std::uint8_t code);
+/// The light of each code.
+const std::array<float, 256>& srgb_lights();
 
 }  // namespace seedframe

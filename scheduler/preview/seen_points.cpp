@@ -12,26 +12,32 @@ std::size_t sample_number(int row, int column) {
   return kBayer[static_cast<std::size_t>(row % 4)][static_cast<std::size_t>(column % 4)];
 }
 
-Eigen::Vector3d SeenPoints::position(std::int32_t pixel) const {
-  const double depth = rays_.depth[static_cast<std::size_t>(pixel)];
-  const int column = pixel % rays_.width, row = pixel / rays_.width;
-  return {(column - camera_.center_px[0]) / camera_.focal_px[0] * depth,
-          (camera_.center_px[1] - row) / camera_.focal_px[1] * depth, -depth};
+std::array<std::int32_t, 4> points_around(const PixelGrid& one_of_four, int row, int column) {
+  const int top = std::max(0, (row - 1) / 2), bottom = std::min(top + 1, one_of_four.height - 1);
+  const int left = std::max(0, (column - 1) / 2);
+  const int right = std::min(left + 1, one_of_four.width - 1);
+  return {one_of_four.at(top, left), one_of_four.at(top, right), one_of_four.at(bottom, left),
+          one_of_four.at(bottom, right)};
+}
+
+SeenPoints::SeenPoints(const RayImage& rays, const CameraSpec& camera)
+    : rays_(rays),
+      per_focal_(static_cast<float>(1.0 / std::sqrt(camera.focal_px[0] * camera.focal_px[1]))) {
+  positions_.reserve(rays.depth.size());
+  for (int row = 0; row < rays.height; ++row) {
+    const double up = (camera.center_px[1] - row) / camera.focal_px[1];
+    for (int column = 0; column < rays.width; ++column) {
+      const double right = (column - camera.center_px[0]) / camera.focal_px[0];
+      const double depth = rays.depth[positions_.size()];
+      positions_.emplace_back(Eigen::Vector3d(right * depth, up * depth, -depth).cast<float>());
+    }
+  }
 }
 
 Eigen::Vector3d SeenPoints::above(std::int32_t pixel) const {
   constexpr double kLift = 3e-5;  // of the depth: beyond what float32 rounds
   const double lift = kLift * rays_.depth[static_cast<std::size_t>(pixel)];
-  return position(pixel) + lift * normal(pixel).cast<double>();
-}
-
-Eigen::Vector3f SeenPoints::normal(std::int32_t pixel) const {
-  return Eigen::Map<const Eigen::Vector3f>(rays_.normals[static_cast<std::size_t>(pixel)].data());
-}
-
-float SeenPoints::pixel_width_m(std::int32_t pixel) const {
-  return rays_.depth[static_cast<std::size_t>(pixel)] /
-         static_cast<float>(std::sqrt(camera_.focal_px[0] * camera_.focal_px[1]));
+  return position(pixel).cast<double>() + lift * normal(pixel).cast<double>();
 }
 
 PixelGrid SeenPoints::all_pixels() const {
@@ -69,20 +75,33 @@ void SeenPoints::smooth(const PixelGrid& grid, std::vector<float>& values, int c
                  static_cast<std::size_t>(column)) *
                 static_cast<std::size_t>(channels)];
   };
+  const auto is_even = [&](float value, int left, int right, int top, int bottom) {
+    for (int y = top; y < bottom; ++y) {
+      for (int x = left; x < right; ++x) {
+        if (*at(y, x) != value && grid.at(y, x) >= 0) return false;
+      }
+    }
+    return true;
+  };
   std::vector<float> sums(static_cast<std::size_t>(channels));
   float* out = values.data();
   for (int row = 0; row < grid.height; ++row) {
+    const int top = std::max(0, row - before), bottom = std::min(row + end, grid.height);
     for (int column = 0; column < grid.width; ++column, out += channels) {
       const std::int32_t own = grid.at(row, column);
       if (own < 0) continue;
       const float* mine = at(row, column);
+      const int left = std::max(0, column - before), right = std::min(column + end, grid.width);
+      // As in nearly all of a shadow, and out of it.
+      if (channels == 1 && is_even(*mine, left, right, top, bottom)) continue;
       std::copy(mine, mine + channels, sums.begin());
       int count = 1;
-      for (int y = std::max(0, row - before); y < std::min(row + end, grid.height); ++y) {
-        for (int x = std::max(0, column - before); x < std::min(column + end, grid.width); ++x) {
+      for (int y = top; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) {
           const std::int32_t other = grid.at(y, x);
-          if (other < 0 || other == own || !on_same_surface(own, other)) continue;
+          if (other < 0 || other == own) continue;
           const float* theirs = at(y, x);
+          if (!on_same_surface(own, other)) continue;
           for (int c = 0; c < channels; ++c) sums[static_cast<std::size_t>(c)] += theirs[c];
           ++count;
         }
@@ -94,25 +113,12 @@ void SeenPoints::smooth(const PixelGrid& grid, std::vector<float>& values, int c
   }
 }
 
-std::vector<std::array<std::int32_t, 4>> SeenPoints::points_around(
-    const PixelGrid& one_of_four) const {
-  std::vector<std::array<std::int32_t, 4>> found(rays_.instance.size(), {-1, -1, -1, -1});
-  for (int row = 0; row < rays_.height; ++row) {
-    const int top = std::max(0, (row - 1) / 2), bottom = std::min(top + 1, one_of_four.height - 1);
-    for (int column = 0; column < rays_.width; ++column) {
-      const int left = std::max(0, (column - 1) / 2);
-      const int right = std::min(left + 1, one_of_four.width - 1);
-      const std::size_t pixel = rays_.index(column, row);
-      const std::array<std::int32_t, 4> around = {
-          one_of_four.at(top, left), one_of_four.at(top, right), one_of_four.at(bottom, left),
-          one_of_four.at(bottom, right)};
-      const bool all = std::all_of(around.begin(), around.end(), [&](std::int32_t other) {
-        return other >= 0 && on_same_surface(static_cast<std::int32_t>(pixel), other);
-      });
-      if (all && rays_.instance[pixel] >= 0) found[pixel] = around;
-    }
-  }
-  return found;
+bool SeenPoints::on_surface_around(const PixelGrid& one_of_four, int row, int column) const {
+  const std::array<std::int32_t, 4> around = points_around(one_of_four, row, column);
+  const auto pixel = static_cast<std::int32_t>(rays_.index(column, row));
+  return std::all_of(around.begin(), around.end(), [&](std::int32_t other) {
+    return other >= 0 && on_same_surface(pixel, other);
+  });
 }
 
 std::vector<std::int32_t> SeenPoints::points_for_pixels(const PixelGrid& one_of_four) const {
@@ -139,15 +145,14 @@ std::vector<std::int32_t> SeenPoints::points_for_pixels(const PixelGrid& one_of_
 
 bool SeenPoints::on_same_surface(std::int32_t a, std::int32_t b) const {
   constexpr float kSameWay = 0.9F;     // cosine
-  constexpr double kSameHeight = 3.0;  // pixels
+  constexpr float kSameHeight = 3.0F;  // pixels
   if (a == b) return true;
   if (rays_.instance[static_cast<std::size_t>(a)] != rays_.instance[static_cast<std::size_t>(b)]) {
     return false;
   }
   const Eigen::Vector3f facing = normal(a);
   if (facing.dot(normal(b)) < kSameWay) return false;
-  const double height = facing.cast<double>().dot(position(b) - position(a));
-  return std::abs(height) < kSameHeight * pixel_width_m(a);
+  return std::abs(facing.dot(position(b) - position(a))) < kSameHeight * pixel_width_m(a);
 }
 
 }  // namespace seedframe

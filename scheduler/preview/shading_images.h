@@ -75,7 +75,7 @@ class ImageShelf {
     }
   }
 
-  const std::size_t most_bytes_;
+  std::size_t most_bytes_;
   mutable std::mutex mutex_;  ///< guards what follows
   std::map<std::string, std::shared_ptr<Entry>> entries_;
   std::uint64_t uses_ = 0;

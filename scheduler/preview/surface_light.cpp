@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "image/luminance.h"
 
@@ -24,7 +23,15 @@ class LampLight {
         scene_(scene),
         all_(points.all_pixels()),
         fourth_(points.one_of_four()),
-        around_(points.points_around(fourth_)) {}
+        is_inside_(all_.pixels.size(), 0) {
+    for (int row = 0; row < all_.height; ++row) {
+      for (int column = 0; column < all_.width; ++column) {
+        const std::int32_t pixel = all_.at(row, column);
+        if (pixel < 0 || !points.on_surface_around(fourth_, row, column)) continue;
+        is_inside_[static_cast<std::size_t>(pixel)] = 1;
+      }
+    }
+  }
 
   void add(const Lamp& lamp, std::vector<Vector3f>& sums) {
     const std::size_t count = all_.pixels.size();
@@ -39,7 +46,7 @@ class LampLight {
       for (int column = 0; column < all_.width; ++column) {
         const std::int32_t pixel = all_.at(row, column);
         if (pixel < 0 || lit_[static_cast<std::size_t>(pixel)] != kUnknown) continue;
-        if (!settled(pixel)) look(lamp, pixel);
+        if (!settled(row, column)) look(lamp, pixel);
       }
       find_shadows();
     }
@@ -57,7 +64,7 @@ class LampLight {
   float reached(const Lamp& lamp, std::size_t pixel) const {
     const auto at = static_cast<std::int32_t>(pixel);
     return static_cast<float>(
-        lamp.irradiance(points_.position(at), points_.normal(at).cast<double>()));
+        lamp.irradiance(points_.position(at).cast<double>(), points_.normal(at).cast<double>()));
   }
 
   void look(const Lamp& lamp, std::int32_t pixel) {
@@ -84,23 +91,24 @@ class LampLight {
   }
 
   /// By the points around the pixel, which are known.
-  bool settled(std::int32_t pixel) {
-    const std::array<std::int32_t, 4>& around = around_[static_cast<std::size_t>(pixel)];
-    if (around[0] < 0) return false;
-    const float lit = lit_[static_cast<std::size_t>(around[0])];
+  bool settled(int row, int column) {
+    const auto pixel = static_cast<std::size_t>(all_.at(row, column));
+    if (is_inside_[pixel] == 0) return false;
+    const std::array<std::int32_t, 4> around = points_around(fourth_, row, column);
+    const float lit = lit_[static_cast<std::size_t>(around.front())];
     for (const std::int32_t other : around) {
       if (lit_[static_cast<std::size_t>(other)] != lit) return false;
     }
-    lit_[static_cast<std::size_t>(pixel)] = lit;
+    lit_[pixel] = lit;
     return true;
   }
 
   const SeenPoints& points_;
   const RayScene& scene_;
   PixelGrid all_, fourth_;
-  std::vector<std::array<std::int32_t, 4>> around_;
-  std::vector<float> lit_;      ///< share of the lamp that is seen from each pixel
-  std::vector<LightRay> rays_;  ///< and the pixels from which they go
+  std::vector<std::uint8_t> is_inside_;  ///< by pixel: the points around it are on its surface
+  std::vector<float> lit_;               ///< share of the lamp that is seen from each pixel
+  std::vector<LightRay> rays_;           ///< and the pixels from which they go
   std::vector<std::size_t> pixels_;
   std::vector<std::uint8_t> in_shadow_;
 };
@@ -150,7 +158,7 @@ class ScatteredLight {
       if (pixel < 0) continue;
       const Vector3d normal = points_.normal(pixel).cast<double>();
       const Vector3d across = normal.unitOrthogonal();
-      const auto [x, y] = disc_point(sample_number(row, column), kSamplesOfMean);
+      const auto [x, y] = disc_points()[sample_number(row, column)];
       const Vector3d direction = x * across + y * normal.cross(across) +
                                  std::sqrt(std::max(0.0, 1.0 - x * x - y * y)) * normal;
       rays_.push_back({points_.above(pixel), direction});

@@ -1,6 +1,7 @@
 #include "preview/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -37,9 +38,11 @@ Image<float> halved(const Image<float>& light) {
   return half;
 }
 
-Vector3f light_at(const Image<std::uint8_t>& level, int row, int column) {
+using Lights = std::array<float, 256>;
+
+Vector3f light_at(const Image<std::uint8_t>& level, int row, int column, const Lights& lights) {
   const std::uint8_t* code = &level.at(row, column);
-  return {srgb_light(code[0]), srgb_light(code[1]), srgb_light(code[2])};
+  return {lights[code[0]], lights[code[1]], lights[code[2]]};
 }
 
 /// The pixels before and behind a place, round about, and how near it is to the one behind.
@@ -75,19 +78,20 @@ Vector3f Texture::color(double u, double v, double width) const {
   if (level >= last) return mean_;
   const auto finer = static_cast<std::size_t>(level);
   const auto share = static_cast<float>(level - static_cast<double>(finer));
-  const Vector3f fine = in_level(finer, u, v);
+  Vector3f fine = in_level(finer, u, v);
   if (share == 0.0F) return fine;
   return (1.0F - share) * fine + share * in_level(finer + 1, u, v);
 }
 
 Vector3f Texture::in_level(std::size_t level, double u, double v) const {
   const Image<std::uint8_t>& image = levels_[level];
+  const Lights& lights = srgb_lights();
   const Between x = between(u, image.width);
   const Between y = between(1.0 - v, image.height);
-  const Vector3f upper = (1.0F - x.share) * light_at(image, y.before, x.before) +
-                         x.share * light_at(image, y.before, x.behind);
-  const Vector3f lower = (1.0F - x.share) * light_at(image, y.behind, x.before) +
-                         x.share * light_at(image, y.behind, x.behind);
+  const Vector3f upper = (1.0F - x.share) * light_at(image, y.before, x.before, lights) +
+                         x.share * light_at(image, y.before, x.behind, lights);
+  const Vector3f lower = (1.0F - x.share) * light_at(image, y.behind, x.before, lights) +
+                         x.share * light_at(image, y.behind, x.behind, lights);
   return (1.0F - y.share) * upper + y.share * lower;
 }
 

@@ -83,7 +83,7 @@ texture do not count in; *correlation*: of brightness, over pixels.
     if options.report:
         options.report.write_text(text)
     if options.picture:
-        Image.fromarray(numpy.vstack(strips)).save(options.picture, quality=85)
+        Image.fromarray(numpy.vstack(strips)).save(options.picture, quality=60)
 
 
 main()
