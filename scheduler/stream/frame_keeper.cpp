@@ -120,7 +120,7 @@ FrameKeeper::~FrameKeeper() {
 
 Status FrameKeeper::look() {
   JobStore& store = campaign_.campaign.store;
-  const Status visited = store.for_each_frame([this](const FrameRow& row) -> Status {
+  Status visited = store.for_each_frame([this](const FrameRow& row) -> Status {
     numbers_.emplace(key_of(row.frame_id), row.frame);
     next_ = row.frame + 1;
     return {};

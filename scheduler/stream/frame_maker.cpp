@@ -252,7 +252,7 @@ Status FrameMaker::finish(const FrameJob& job, const RenderTimings& timings,
   const FinishTask task{spec, rendering.frame.id, rendering.frame.meshes, attempt_folder(job),
                         fs::path()};
   if (keeper_ != nullptr) {
-    const Status taken =
+    Status taken =
         take_rendered(scratch_, given_folder(job).filename().string(), task.attempt_folder);
     if (!taken) return taken;
   }
