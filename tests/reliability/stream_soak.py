@@ -3,7 +3,7 @@
 
     tests/reliability/stream_soak.py [--requests N] [--preview N] [--hours H] [--report FILE]
 
-N requests at fidelity labels, then N at preview, each to a program of its own, by the demo's config made small. Clients
+N requests at fidelity labels, then N at preview, each to a program of its own, of small frames. Clients
 of several processes connect, ask, and hang up: most in good order, some map arrays, some leave without reading what they
 asked for, some send what is wrong, cancel, and come too late. Resident memory, open files and threads are from /proc.
 
@@ -27,7 +27,7 @@ import time
 import report
 
 HOME = pathlib.Path(__file__).resolve().parents[2]
-CONFIG = HOME / "configs" / "parts.yaml"
+CONFIGS = {"labels": "bench_small", "preview": "parts"}  # the first so small that a million take minutes
 SIZE = (64, 48)
 CLIENTS = 3
 DAY = 86_400
@@ -121,8 +121,8 @@ def soak(options, fidelity, count):
         folder = pathlib.Path(folder)
         path = folder / "socket"
         process = subprocess.Popen(
-            [str(options.build.resolve() / "seedframe"), "stream", str(CONFIG), "--socket", str(path), "--set", f"render.width={SIZE[0]}",
-             "--set", f"render.height={SIZE[1]}"],
+            [str(options.build.resolve() / "seedframe"), "stream", str(HOME / "configs" / f"{CONFIGS[fidelity]}.yaml"), "--socket",
+             str(path), "--set", f"render.width={SIZE[0]}", "--set", f"render.height={SIZE[1]}"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
             env={**os.environ, "SEEDFRAME_HOME": str(HOME), "TMPDIR": str(folder)})
         counts = multiprocessing.Array("q", 4)  # answered, errors that were asked for, wrong answers, clients
@@ -280,10 +280,10 @@ def wrong(lines, fidelity, rng, counts):
 def text_of(runs):
     yield "# A stream that is asked for very many frames"
     yield ""
-    yield "Made by `tests/reliability/stream_soak.py` (`scripts/soak.sh stream`): `seedframe stream` with the demo's config (`configs/parts.yaml`) at"
-    yield f"{SIZE[0]} × {SIZE[1]}, asked by {CLIENTS} processes whose clients come and go. Watched from outside."
+    yield "Made by `tests/reliability/stream_soak.py` (`scripts/soak.sh stream`): `seedframe stream` with frames of"
+    yield f"{SIZE[0]} × {SIZE[1]} pixels, asked by {CLIENTS} processes whose clients come and go. Watched from outside."
     for run in runs:
-        yield from ["", f"## Fidelity {run.fidelity}: {run.answered:,} frames", ""]
+        yield from ["", f"## Fidelity {run.fidelity}: {run.answered:,} frames of `configs/{CONFIGS[run.fidelity]}.yaml`", ""]
         per_day = f", as many as one a second asks for in {run.answered / DAY:.1f} days" if run.answered >= DAY else ""
         yield (f"In {run.wall:.0f} s ({run.answered / max(run.wall, 1e-9):.0f} a second{per_day}), for {run.clients:,} clients, besides {run.errors:,} requests "
                "that were wrong, too late or cancelled.")
