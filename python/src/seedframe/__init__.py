@@ -13,7 +13,8 @@ from .errors import Error
 from .labels import Amodal, Camera, Instance, Keypoint, Labels, Pose
 from .program import find_program
 from .runs import Progress, check, describe, export, resume, submit
-from .stream import Batch, Request, Stream, StreamFrame
+from .stream import Request, Stream
+from .stream_frame import Batch, StreamFrame
 from .views import FrameViews
 
 __all__ = [

@@ -9,7 +9,8 @@ from dataclasses import replace
 from typing import Any
 
 from .program import StrPath
-from .stream import Request, Stream, StreamFrame, Values
+from .stream import Request, Stream, Values
+from .stream_frame import StreamFrame
 
 
 class AsyncStream:
