@@ -76,7 +76,7 @@ class InstalledProgram(unittest.TestCase):
 
     def test_shipped_configs_find_what_they_build_on(self):
         for name in ["tyol_multi_8_target", "robocup_fig2", "parts_study"]:  # a base, a sweep, textures
-            self.run_program("check", self.home / f"configs/{name}.yaml")
+            self.run_program("check", self.home / f"configs/{name}.yaml", "--set", "scenes=2")
 
     def test_runs_through_a_link(self):
         link = self.elsewhere / "seedframe"
