@@ -168,7 +168,10 @@ function cooccurrenceCard() {
   const highest = Math.max(1, ...together.flat());
   const cell = (a, b) => {
     const share = together[a][b] / highest;
-    return el('td', { class: 'heat', title: `${categories[a]} and ${categories[b]}: ${plural(together[a][b], 'frame')}`, style: { '--share': share.toFixed(3) } , 'data-deep': share > 0.55 }, count(together[a][b]));
+    const deep = share > 0.55;
+    // Neither dark nor light letters can be read on what lies between.
+    const opacity = deep ? 0.86 + 0.3 * (share - 0.55) : 0.9 * share;
+    return el('td', { class: 'heat', title: `${categories[a]} and ${categories[b]}: ${plural(together[a][b], 'frame')}`, style: { '--opacity': opacity.toFixed(3) }, 'data-deep': deep }, count(together[a][b]));
   };
   const grid = el('div', { class: 'scrolls', tabindex: '0', role: 'region', 'aria-label': 'Classes seen together' },
     el('table', { class: 'matrix' }, el('thead', {}, el('tr', {}, el('td'), categories.slice(0, n).map((name) => el('th', { scope: 'col' }, el('span', {}, named(name)))))),
