@@ -8,7 +8,7 @@ A pixel is a firefly if its luminance (scene-linear, of passes.exr) is above
 So an edge that noise moves by a pixel is none, nor is noise in the dark. Each scene is rendered as its config says, and
 without its limit on indirect light. "stands out": how far the brightest firefly is above what was allowed.
 
-    tests/bench/fireflies.py [--frames 3] [--width 96] [--samples 64] [--reference 4096] [--report FILE]
+    tests/bench/fireflies.py [--frames 3] [--width 80] [--samples 64] [--reference 4096] [--report FILE]
 """
 
 import argparse
@@ -79,7 +79,7 @@ def rows_of(options, scene, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--frames", type=int, default=3)
-    parser.add_argument("--width", type=int, default=96, help="pixels; the height is three quarters of it")
+    parser.add_argument("--width", type=int, default=80, help="pixels; the height is three quarters of it")
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--reference", type=int, default=4096, help="samples")
     parser.add_argument("--scene", action="append", choices=SCENES)
