@@ -205,7 +205,7 @@ void add_preview_verb(CLI::App& app, const OnSelected& on_selected) {
       ->check(CLI::Range(1, 100));
   verb->add_flag("--labels-only", arguments->labels_only,
                  "without Blender: shaded by the twin with textures and shadows, but no "
-                 "reflections, in less than a second");
+                 "reflections, in about a second");
   verb->add_option("--set", arguments->set, "path=value: replaces a value of the config")
       ->allow_extra_args(false);
   verb->add_flag("--overwrite", arguments->overwrite,
